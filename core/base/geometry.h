@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace rangezip {
+
+using Vec2 = glm::dvec2;
+using Vec3 = glm::dvec3;
+using Vec4 = glm::dvec4;
+using Mat3 = glm::dmat3;
+using Mat4 = glm::dmat4;
+using Vec3f = glm::vec3;
+
+/// Three corner indices, counter-clockwise as seen from outside.
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// An axis-parallel box; empty (lower > upper) until something is added.
+struct Box {
+  Vec3 lower{std::numeric_limits<double>::infinity()};
+  Vec3 upper{-std::numeric_limits<double>::infinity()};
+
+  [[nodiscard]] bool is_empty() const noexcept { return !(lower.x <= upper.x); }
+  [[nodiscard]] Vec3 center() const noexcept { return 0.5 * (lower + upper); }
+  /// Length of the diagonal, 0 for an empty box.
+  [[nodiscard]] double diagonal() const noexcept {
+    return is_empty() ? 0.0 : glm::length(upper - lower);
+  }
+  void add(const Vec3& point) noexcept {
+    for (int axis = 0; axis < 3; ++axis) {
+      lower[axis] = point[axis] < lower[axis] ? point[axis] : lower[axis];
+      upper[axis] = point[axis] > upper[axis] ? point[axis] : upper[axis];
+    }
+  }
+  void add(const Box& box) noexcept {
+    if (box.is_empty()) return;
+    add(box.lower);
+    add(box.upper);
+  }
+
+  friend bool operator==(const Box&, const Box&) = default;
+};
+
+/// The half-space dot(normal, p) + offset >= 0; what lies outside is cut away.
+struct Plane {
+  Vec3 normal{0.0, 0.0, 1.0};
+  double offset = 0.0;  ///< in model units times the length of `normal`
+
+  [[nodiscard]] double value(const Vec3& point) const noexcept {
+    return glm::dot(normal, point) + offset;
+  }
+
+  friend bool operator==(const Plane&, const Plane&) = default;
+};
+
+/// Twice the area vector of a triangle: normal to it, counter-clockwise corners face the viewer.
+[[nodiscard]] inline Vec3 area_vector(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
+  return glm::cross(b - a, c - a);
+}
+
+/// `vector` at unit length; (0, 0, 1) for a zero or non-finite one.
+[[nodiscard]] inline Vec3 unit_or_z(const Vec3& vector) noexcept {
+  const double length = glm::length(vector);
+  return length > 0.0 && length < std::numeric_limits<double>::infinity() ? vector / length
+                                                                          : Vec3{0.0, 0.0, 1.0};
+}
+
+/// The point of the (possibly degenerate) triangle abc that is nearest to `point`
+/// [Ericson 2005, 5.1.5].
+[[nodiscard]] Vec3 closest_point_on_triangle(const Vec3& point, const Vec3& a, const Vec3& b,
+                                             const Vec3& c) noexcept;
+
+}  // namespace rangezip

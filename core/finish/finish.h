@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "core/base/progress.h"
+#include "core/mesh/triangle_mesh.h"
+
+namespace rangezip {
+
+enum class FinishMethod {
+  fast,  ///< closes holes and removes self-intersections
+  full,  ///< also relaxes the triangles, fits vertices to the cloud and snaps sharp features
+};
+
+struct FinishOptions {
+  FinishMethod method = FinishMethod::full;
+  double pixel_size = 0.0;        ///< h, model units, of the scans; must be positive
+  double max_hole_perimeter = 60.0;  ///< in h: larger loops are left open unless narrow
+  double narrow_width = 4.5;      ///< in h: loops whose sides face each other within this are cracks
+                                  ///< and are closed whatever their length
+  int rounds = 5;                 ///< of {cut self-intersections, bridge, fill}, at most
+  int relaxations = 5;            ///< of {collapse, flip, relax, project}
+  bool snap_features = true;      ///< sharp edges and corners
+  std::size_t min_component = 100;  ///< smaller pieces are dropped
+};
+
+struct FinishReport {
+  std::size_t self_intersections_cut = 0;  ///< faces removed because they crossed others
+  std::size_t bridged_loops = 0;
+  std::size_t filled_holes = 0;
+  std::size_t filled_faces = 0;
+  std::size_t open_loops = 0;  ///< boundary loops left
+  std::size_t collapsed_edges = 0;
+  std::size_t flipped_edges = 0;
+  std::size_t snapped_vertices = 0;
+  std::size_t dropped_components = 0;
+  std::size_t dropped_faces = 0;
+};
+
+struct FinishResult {
+  TriangleMesh mesh;
+  FinishReport report;
+};
+
+/// Makes a clean mesh of the stitched scans: removes self-intersections, bridges cracks between
+/// pieces, closes holes that the cloud does not show to be real, then improves triangles without
+/// leaving the cloud. The result is oriented, manifold and free of self-intersections.
+/// @param cloud world positions of the points that were scanned (and area samples of polygons), to
+///     which vertices are fitted and which give evidence; may be empty: no fitting
+/// @throws InvalidArgument if pixel_size is not positive and finite.
+[[nodiscard]] FinishResult finish(TriangleMesh mesh, std::span<const Vec3> cloud,
+                                  const FinishOptions& options, const Progress& progress = {});
+
+}  // namespace rangezip

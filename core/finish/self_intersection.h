@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/mesh/triangle_mesh.h"
+
+namespace rangezip {
+
+/// All pairs of triangles (lower index first, sorted) that cross, overlap, or touch other than in
+/// the vertex or edge they share: neighbours count only if they fold onto or pass through each
+/// other; degenerate triangles count with what they touch. Exact: decided by signs of determinants
+/// computed without error. The same verdict as CGAL's Polygon_mesh_processing::self_intersections.
+/// Cost: a uniform grid over the triangles, about linear for meshes of even size.
+[[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(
+    const TriangleMesh& mesh);
+
+/// The same, only pairs with at least one triangle of `changed` (indices, any order).
+[[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(
+    const TriangleMesh& mesh, std::span<const std::uint32_t> changed);
+
+}  // namespace rangezip

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/progress.h"
+#include "core/scene/scene.h"
+
+namespace rangezip {
+
+/// What a reader found in one file, and what it left out and why.
+struct InputReport {
+  std::string path;
+  std::string format;                  ///< "ply binary_little_endian", "xyz", "obj", ...
+  std::size_t points = 0;              ///< taken
+  std::size_t triangles = 0;           ///< taken, after splitting polygons and strips
+  std::size_t polygons = 0;            ///< in the file, before splitting
+  std::size_t nonfinite_points = 0;    ///< skipped
+  std::size_t nonfinite_polygons = 0;  ///< skipped: a corner is not finite
+  std::size_t degenerate_polygons = 0; ///< skipped: fewer than three distinct corners
+  std::vector<std::string> notes;      ///< ignored elements and the like
+};
+
+/// One cloud or one soup, with its place.
+struct InputItem {
+  std::shared_ptr<const PointCloud> cloud;  ///< exactly one of the two is set
+  std::shared_ptr<const TriangleSoup> soup;
+  Mat4 world_from_item{1.0};
+};
+
+struct InputFile {
+  std::vector<InputItem> items;
+  std::vector<InputReport> reports;  ///< one per file read; a .conf reads several
+};
+
+/// Reads whatever `path` is, by its name (".gz" of each is unpacked): PLY points and meshes,
+/// XYZ/PTS/ASC/CSV/TXT text, OBJ, OFF, STL, and .conf lists of Stanford range scans. Polygons become
+/// triangles; vertices of a file without faces, and OBJ point elements, become points.
+/// Positions are stored in float about a local origin near the data, so large coordinates lose
+/// nothing.
+/// @throws IoError naming file, place and rule for anything that is not what it claims to be.
+[[nodiscard]] InputFile read_input(const std::filesystem::path& path,
+                                   const Progress& progress = {});
+
+/// All files as one scene, in order.
+/// @throws IoError as read_input(); also if fewer than three distinct finite points (or one triangle)
+///     remain in all of them.
+struct SceneInput {
+  Scene scene;
+  std::vector<InputReport> reports;
+};
+[[nodiscard]] SceneInput read_scene(std::span<const std::filesystem::path> paths,
+                                    const Progress& progress = {});
+
+}  // namespace rangezip

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "core/image/range_image.h"
+#include "core/mask/mask.h"
+#include "core/mesh/triangle_mesh.h"
+#include "core/raster/rasterizer.h"
+
+namespace rangezip {
+
+enum class CorrespondenceMethod {
+  depth_band,  ///< only fragments of the mesh within a band around the samples are drawn
+  id_buffer,   ///< the paper's: the nearest face in the ID buffer, then a local search
+};
+
+struct CorrespondenceOptions {
+  CorrespondenceMethod method = CorrespondenceMethod::depth_band;
+  double band = 1.5;       ///< half width of the band in pixel sides times stretch_of(slope)
+  double back_band = 0.6;  ///< the same for faces seen from behind; 0: not looked for
+};
+
+/// Which face of the mesh each sample lies on.
+struct Correspondence {
+  Grid<PrimitiveId> face;  ///< index of the triangle, kNoPrimitive where nothing corresponds
+  Mask from_behind;        ///< 1 where the sample re-scans a known sheet from its inside
+};
+
+/// The face of `mesh` that corresponds to each sample [Kobbelt, Botsch 2000, 4.3].
+///
+/// depth_band: the mesh is drawn under the image's view and every fragment outside the band around
+/// the range image is dropped, so the face is on the right sheet by construction. Front faces
+/// (Facing::front) and back faces are drawn apart.
+/// id_buffer: the paper's way; the visible face is a start from which a walk over edge neighbours
+/// goes downhill in distance to the sample; accepted at any distance.
+/// Cost: one pass of the rasterizer over the mesh, O(faces + pixels).
+[[nodiscard]] Correspondence find_correspondence(Rasterizer& rasterizer, const RangeImage& image,
+                                                 const SlopeImage& slopes,
+                                                 const TriangleMesh& mesh,
+                                                 const CorrespondenceOptions& options = {});
+
+}  // namespace rangezip

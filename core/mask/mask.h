@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/base/geometry.h"
+#include "core/base/grid.h"
+#include "core/image/range_image.h"
+
+namespace rangezip {
+
+/// Which pixels take part: 1 active, 0 not. One byte a pixel, so that it is a span, a NumPy array
+/// and a GL upload as it is.
+using Mask = Grid<std::uint8_t>;
+
+/// Every pixel of the extent active.
+[[nodiscard]] Mask full_mask(Extent extent);
+
+/// Pixels with a sample.
+[[nodiscard]] Mask sample_mask(const RangeImage& image);
+
+/// The region of interest: pixels whose centre is inside the polygon (even-odd rule).
+/// @param lasso Corners in window coordinates; the last is joined to the first.
+/// @throws InvalidArgument if there are fewer than three corners, or one is not finite.
+[[nodiscard]] Mask mask_from_lasso(Extent extent, std::span<const Vec2> lasso);
+
+}  // namespace rangezip

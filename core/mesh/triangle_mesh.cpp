@@ -1,0 +1,44 @@
+#include "core/mesh/triangle_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rangezip {
+
+Box bounds_of(const TriangleMesh& mesh) {
+  Box bounds;
+  for (const Vec3& p : mesh.positions) bounds.add(p);
+  return bounds;
+}
+
+double longest_side(const TriangleMesh& mesh, const Triangle& triangle) {
+  const Vec3& a = mesh.positions[triangle[0]];
+  const Vec3& b = mesh.positions[triangle[1]];
+  const Vec3& c = mesh.positions[triangle[2]];
+  return std::sqrt(
+      std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)}));
+}
+
+void remove_unused_vertices(TriangleMesh& mesh) {
+  constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> new_index(mesh.positions.size(), kUnused);
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const std::uint32_t corner : triangle) new_index[corner] = 0;
+  }
+  std::uint32_t next = 0;
+  for (std::size_t i = 0; i < new_index.size(); ++i) {
+    if (new_index[i] == kUnused) continue;
+    new_index[i] = next;
+    mesh.positions[next] = mesh.positions[i];
+    if (!mesh.sources.empty()) mesh.sources[next] = mesh.sources[i];
+    ++next;
+  }
+  mesh.positions.resize(next);
+  if (!mesh.sources.empty()) mesh.sources.resize(next);
+  for (Triangle& triangle : mesh.triangles) {
+    for (std::uint32_t& corner : triangle) corner = new_index[corner];
+  }
+}
+
+}  // namespace rangezip

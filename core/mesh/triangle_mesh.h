@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/base/geometry.h"
+#include "core/raster/draw_item.h"
+
+namespace rangezip {
+
+/// Where a vertex comes from: the primitive of the scene that won its pixel, and the number of
+/// the scan. kNoPrimitive / kNoView for vertices that a fill or a finish made.
+struct VertexSource {
+  static constexpr std::uint32_t kNoView = 0xffff'ffffU;
+  PrimitiveId primitive = kNoPrimitive;
+  std::uint32_t view = kNoView;
+
+  friend bool operator==(const VertexSource&, const VertexSource&) = default;
+};
+
+/// An indexed triangle mesh, the form in which stages hand meshes to each other, draw and store
+/// them: world positions in double and corners counter-clockwise as seen from outside. The index
+/// of a triangle is its PrimitiveId when the mesh is drawn. Surgery that needs neighbours builds
+/// them (core/mesh/halfedge.h, core/mesh/edge_map.h).
+struct TriangleMesh {
+  std::vector<Vec3> positions;
+  std::vector<Triangle> triangles;
+  std::vector<VertexSource> sources;  ///< one per position, or empty: not recorded
+
+  [[nodiscard]] bool empty() const noexcept { return triangles.empty(); }
+  friend bool operator==(const TriangleMesh&, const TriangleMesh&) = default;
+};
+
+/// Box around all positions.
+[[nodiscard]] Box bounds_of(const TriangleMesh& mesh);
+
+/// Longest side of a triangle, model units: the paper's quality of an old triangle
+/// [Kobbelt, Botsch 2000, 4.3].
+[[nodiscard]] double longest_side(const TriangleMesh& mesh, const Triangle& triangle);
+
+/// Drops positions that no triangle uses, keeping the order of the others.
+void remove_unused_vertices(TriangleMesh& mesh);
+
+}  // namespace rangezip

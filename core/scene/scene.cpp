@@ -1,0 +1,122 @@
+#include "core/scene/scene.h"
+
+#include <atomic>
+#include <cmath>
+#include <string>
+
+#include "core/base/error.h"
+
+namespace rangezip {
+
+namespace {
+
+/// A number no other content of this process has; backends keep uploads under it.
+std::uint64_t next_content_key() {
+  static std::atomic<std::uint64_t> counter{0};
+  return ++counter;
+}
+
+void check_placement(const Mat4& m) {
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row) {
+      if (!std::isfinite(m[column][row])) {
+        throw InvalidArgument("Scene::add: world_from_item must be finite");
+      }
+    }
+  }
+  if (m[0][3] != 0.0 || m[1][3] != 0.0 || m[2][3] != 0.0 || m[3][3] != 1.0) {
+    throw InvalidArgument("Scene::add: world_from_item must be affine");
+  }
+}
+
+Box bounds_of(std::span<const Vec3f> positions, const Mat4& world_from_item) {
+  Box bounds;
+  for (const Vec3f& p : positions) bounds.add(Vec3(world_from_item * Vec4(Vec3(p), 1.0)));
+  return bounds;
+}
+
+}  // namespace
+
+void Scene::append(CloudItem item, std::size_t primitives) {
+  const std::size_t before = point_count_ + triangle_count_;
+  if (primitives > kNoPrimitive - before) {
+    throw InvalidArgument("Scene::add: a scene holds at most 2^32 - 1 primitives");
+  }
+  item.first_id = static_cast<PrimitiveId>(before);
+  item.content_key = next_content_key();
+  items_.push_back(std::move(item));
+}
+
+void Scene::add(std::shared_ptr<const PointCloud> cloud, const Mat4& world_from_item) {
+  if (!cloud) throw InvalidArgument("Scene::add: cloud must not be null");
+  check_placement(world_from_item);
+  const std::size_t count = cloud->positions.size();
+  const Box bounds = bounds_of(cloud->positions, world_from_item);
+  append({.cloud = std::move(cloud), .world_from_item = world_from_item}, count);
+  point_count_ += count;
+  bounds_.add(bounds);
+}
+
+void Scene::add(std::shared_ptr<const TriangleSoup> soup, const Mat4& world_from_item) {
+  if (!soup) throw InvalidArgument("Scene::add: soup must not be null");
+  check_placement(world_from_item);
+  Box bounds;
+  for (const Triangle& triangle : soup->triangles) {
+    for (const std::uint32_t corner : triangle) {
+      if (corner >= soup->positions.size()) {
+        throw InvalidArgument("Scene::add: corner index " + std::to_string(corner) +
+                              " is out of range; the soup has " +
+                              std::to_string(soup->positions.size()) + " positions");
+      }
+      bounds.add(Vec3(world_from_item * Vec4(Vec3(soup->positions[corner]), 1.0)));
+    }
+  }
+  const std::size_t count = soup->triangles.size();
+  append({.soup = std::move(soup), .world_from_item = world_from_item}, count);
+  triangle_count_ += count;
+  bounds_.add(bounds);
+}
+
+std::vector<DrawItem> Scene::draw_items(int point_size, std::span<const std::int8_t> votes) const {
+  if (!votes.empty() && votes.size() != point_count_) {
+    throw InvalidArgument("Scene::draw_items: " + std::to_string(votes.size()) +
+                          " votes were given for " + std::to_string(point_count_) + " points");
+  }
+  std::vector<DrawItem> drawn;
+  drawn.reserve(items_.size());
+  std::size_t first_point = 0;
+  for (const CloudItem& item : items_) {
+    if (item.cloud) {
+      const std::size_t count = item.cloud->positions.size();
+      drawn.emplace_back(DrawPoints{
+          .positions = item.cloud->positions,
+          .world_from_item = item.world_from_item,
+          .first_id = item.first_id,
+          .point_size = point_size,
+          .content_key = item.content_key,
+          .votes = votes.empty() ? votes : votes.subspan(first_point, count)});
+      first_point += count;
+    } else {
+      drawn.emplace_back(DrawTriangles{.positions = item.soup->positions,
+                                       .triangles = item.soup->triangles,
+                                       .world_from_item = item.world_from_item,
+                                       .first_id = item.first_id,
+                                       .content_key = item.content_key});
+    }
+  }
+  return drawn;
+}
+
+std::vector<Vec3> Scene::points() const {
+  std::vector<Vec3> points;
+  points.reserve(point_count_);
+  for (const CloudItem& item : items_) {
+    if (!item.cloud) continue;
+    for (const Vec3f& p : item.cloud->positions) {
+      points.emplace_back(item.world_from_item * Vec4(Vec3(p), 1.0));
+    }
+  }
+  return points;
+}
+
+}  // namespace rangezip

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "core/finish/finish.h"
+#include "core/scan/scan.h"
+#include "core/stitch/stitch.h"
+
+namespace rangezip {
+
+/// The visibility vote that a scan uses; computed once per session for each distinct value.
+struct VoteOptions {
+  double pixel_size = 0.0;  ///< model units
+  int directions = 40;
+
+  friend bool operator==(const VoteOptions&, const VoteOptions&) = default;
+};
+
+/// Scans and stitches the patch into the mesh (the green lasso, or everything in view).
+struct AddScan {
+  ScanRequest scan;
+  StitchOptions stitch;
+  std::optional<VoteOptions> vote;
+};
+
+/// Deletes the faces seen inside a lasso (the red one).
+struct EraseRegion {
+  Camera camera;
+  Extent extent{1024, 1024};
+  std::vector<Vec2> region;   ///< window coordinates
+  bool visible_only = true;   ///< false: also what lies behind
+};
+
+/// Laplacian smoothing of all vertices that are not on the boundary [Kobbelt, Botsch 2000, Fig. 9].
+struct SmoothMesh {
+  int iterations = 1;
+  double factor = 0.5;  ///< in (0, 1]: share of the way to the mean of the neighbours
+};
+
+/// Closes boundary loops up to a perimeter.
+struct FillMeshHoles {
+  double pixel_size = 0.0;     ///< target edge length, model units
+  double max_perimeter = 0.0;  ///< model units
+};
+
+/// The finish; projects onto the scene's points.
+struct FinishMesh {
+  FinishOptions options;
+};
+
+/// Takes back the last `count` commands (for hand-written sessions; undo() otherwise).
+struct UndoSteps {
+  int count = 1;
+};
+
+/// One step of a session. Plain data: written to a session file, it can be played back.
+using Command =
+    std::variant<AddScan, EraseRegion, SmoothMesh, FillMeshHoles, FinishMesh, UndoSteps>;
+
+}  // namespace rangezip

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/mesh/triangle_mesh.h"
+#include "core/patch/patch.h"
+#include "core/scan/scan.h"
+
+namespace rangezip {
+
+enum class StitchMethod {
+  clear_and_fill,  ///< removes the old faces under and near the patch, fills the strip between
+  zipper,          ///< the paper's: inserts the patch's boundary into the old faces
+};
+
+struct StitchOptions {
+  StitchMethod method = StitchMethod::clear_and_fill;
+  double band = 1.0;        ///< half width, in pixel sides times stretch_of(slope), of the depth
+                            ///< band in which old surface counts as covered by the patch
+  double clearance = 0.4;   ///< pixels; old vertices closer to the patch go (against slivers)
+  double max_gap = 3.5;     ///< pixels; longest edge of a strip triangle in the image plane
+  double min_strip_cosine = 0.139;  ///< of the angle to the line of sight (82 degrees)
+  double collapse_ratio = 0.45;  ///< zipper: seam edges shorter than this share of a pixel side are
+                                 ///< collapsed; 0 turns it off
+  std::size_t min_component = 30;  ///< pieces of the result with fewer triangles are dropped
+  std::uint32_t view = VertexSource::kNoView;  ///< recorded with each new vertex
+};
+
+/// What happened, in numbers that a test can check and a user can read.
+struct StitchReport {
+  std::size_t removed_faces = 0;      ///< of the mesh, replaced by the patch
+  std::size_t patch_faces = 0;        ///< added
+  std::size_t strip_faces = 0;        ///< added between patch and mesh
+  std::size_t rejected_strip_faces = 0;
+  std::size_t inserted_vertices = 0;  ///< zipper: of the patch's boundary, into the mesh
+  std::size_t inserted_segments = 0;  ///< zipper: boundary edges found or made in the mesh
+  std::size_t skipped_vertices = 0;   ///< zipper: with no counterpart in the sheet
+  std::size_t skipped_segments = 0;   ///< zipper: that leave the sheet
+  std::size_t flipped_edges = 0;
+  std::size_t collapsed_edges = 0;
+  std::size_t opened_fans = 0;        ///< faces removed because they touched in one vertex only
+  std::size_t dropped_components = 0;
+  std::size_t dropped_faces = 0;      ///< of those components
+};
+
+struct StitchResult {
+  TriangleMesh mesh;
+  StitchReport report;
+};
+
+/// Joins the patch of `scan` to `mesh` and lets it replace what it covers. All seam geometry
+/// happens in the scan's image plane on an integer grid of 2^-14 px with exact predicates. The
+/// result is oriented and manifold whatever the patch; the unit of rollback is a strip face.
+/// `mesh` is taken by value: a caller who moves it pays no copy, one who copies has it for undo.
+///
+/// clear_and_fill removes every front-facing old face that overlaps a patch cell within the band
+/// and those with a vertex closer than `clearance`, then fills the strip between the two
+/// boundaries by a constrained Delaunay triangulation in the image plane.
+/// zipper inserts the patch's boundary vertices into their faces, lets its boundary edges cut or
+/// flip the edges they cross, removes what is inside, and collapses short edges in the seam
+/// [Kobbelt, Botsch 2000, 4.4; Turk, Levoy 1994].
+///
+/// @throws TopologyError if `mesh` is not oriented and edge-manifold.
+/// Cost: O(faces of mesh + patch + pixels), strip O(n log n).
+[[nodiscard]] StitchResult stitch(TriangleMesh mesh, const Scan& scan,
+                                  const StitchOptions& options = {});
+
+}  // namespace rangezip

@@ -1,0 +1,1 @@
+#include "raster_cpu/cpu_rasterizer.h"
