@@ -22,11 +22,11 @@ enum class ReconstructMethod {
 
 struct ReconstructOptions {
   ReconstructMethod method = ReconstructMethod::automatic;
-  std::optional<double> pixel_size;     ///< model units; absent: from the point spacing
-  std::optional<std::size_t> triangles; ///< target count; sets the pixel size, met approximately
-  std::optional<int> views;             ///< planned views; absent: until the cloud is covered
+  std::optional<double> pixel_size;      ///< model units; absent: from the point spacing
+  std::optional<std::size_t> triangles;  ///< target count; sets the pixel size, met approximately
+  std::optional<int> views;              ///< planned views; absent: until the cloud is covered
   std::optional<FinishMethod> finish = FinishMethod::full;  ///< absent: no finish
-  int threads = 0;                      ///< 0: all of the machine; the mesh never depends on it
+  int threads = 0;  ///< 0: all of the machine; the mesh never depends on it
 };
 
 struct StageTime {
@@ -37,12 +37,12 @@ struct StageTime {
 
 struct ReconstructReport {
   double pixel_size = 0.0;
-  std::vector<Vec3> views;       ///< toward the viewer, planned ones first
+  std::vector<Vec3> views;  ///< toward the viewer, planned ones first
   std::size_t planned_views = 0;
-  double planned_coverage = 0.0; ///< share of the points that the planned views see
+  double planned_coverage = 0.0;  ///< share of the points that the planned views see
   std::vector<CommandReport> commands;
   std::vector<StageTime> stages;
-  double coverage = 0.0;         ///< share of the cloud with a face within pixel_size
+  double coverage = 0.0;  ///< share of the cloud with a face within pixel_size
   MeshReport mesh;
   std::size_t self_intersections = 0;  ///< pairs
 };

@@ -1,0 +1,147 @@
+#include "core/mesh/coverage.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+
+namespace rangezip {
+
+namespace {
+
+/// A uniform grid that knows, per cell, the faces that come within a distance of the cell.
+class FaceGrid {
+ public:
+  FaceGrid(const TriangleMesh& mesh, double distance) : mesh_(mesh), distance_(distance) {
+    for (const Vec3& p : mesh.positions)
+      bounds_.add(p);
+    bounds_.lower -= Vec3(distance);
+    bounds_.upper += Vec3(distance);
+    choose_cells();
+    list_faces();
+  }
+
+  [[nodiscard]] bool is_near(const Vec3& point) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!(point[axis] >= bounds_.lower[axis] && point[axis] <= bounds_.upper[axis])) return false;
+    }
+    const std::size_t cell = index_of(cell_of(point));
+    for (std::uint32_t i = first_[cell]; i < first_[cell + 1]; ++i) {
+      const Triangle& t = mesh_.triangles[faces_[i]];
+      const Vec3 nearest = closest_point_on_triangle(point, mesh_.positions[t[0]],
+                                                     mesh_.positions[t[1]], mesh_.positions[t[2]]);
+      const Vec3 away = point - nearest;
+      if (glm::dot(away, away) <= distance_ * distance_) return true;
+    }
+    return false;
+  }
+
+ private:
+  using Cell = std::array<int, 3>;
+
+  void choose_cells() {
+    // Four distances a cell keep the lists short; more where the grid would outgrow the mesh.
+    constexpr double kDistancesPerCell = 4.0;
+    constexpr double kMaxCells = 16e6;
+    cell_size_ = kDistancesPerCell * distance_;
+    const Vec3 size = bounds_.upper - bounds_.lower;
+    while ((size.x / cell_size_ + 1.0) * (size.y / cell_size_ + 1.0) * (size.z / cell_size_ + 1.0) >
+           kMaxCells) {
+      cell_size_ *= 2.0;
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      count_[static_cast<std::size_t>(axis)] = static_cast<int>(size[axis] / cell_size_) + 1;
+    }
+  }
+
+  [[nodiscard]] Cell cell_of(const Vec3& point) const {
+    Cell cell{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const int a = static_cast<int>(axis);
+      const double offset = (point[a] - bounds_.lower[a]) / cell_size_;
+      cell[axis] = static_cast<int>(std::clamp(offset, 0.0, count_[axis] - 1.0));
+    }
+    return cell;
+  }
+
+  [[nodiscard]] std::size_t index_of(const Cell& cell) const {
+    return (static_cast<std::size_t>(cell[2]) * static_cast<std::size_t>(count_[1]) +
+            static_cast<std::size_t>(cell[1])) *
+               static_cast<std::size_t>(count_[0]) +
+           static_cast<std::size_t>(cell[0]);
+  }
+
+  template <class Visit>
+  void for_each_cell(const Triangle& triangle, const Visit& visit) const {
+    Box box;
+    for (const std::uint32_t corner : triangle)
+      box.add(mesh_.positions[corner]);
+    const Cell lower = cell_of(box.lower - Vec3(distance_));
+    const Cell upper = cell_of(box.upper + Vec3(distance_));
+    for (int z = lower[2]; z <= upper[2]; ++z) {
+      for (int y = lower[1]; y <= upper[1]; ++y) {
+        for (int x = lower[0]; x <= upper[0]; ++x)
+          visit(index_of({x, y, z}));
+      }
+    }
+  }
+
+  void list_faces() {
+    const std::size_t cells = static_cast<std::size_t>(count_[0]) *
+                              static_cast<std::size_t>(count_[1]) *
+                              static_cast<std::size_t>(count_[2]);
+    first_.assign(cells + 1, 0);
+    for (const Triangle& triangle : mesh_.triangles) {
+      for_each_cell(triangle, [&](std::size_t cell) { ++first_[cell + 1]; });
+    }
+    for (std::size_t cell = 0; cell < cells; ++cell)
+      first_[cell + 1] += first_[cell];
+    faces_.resize(first_.back());
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    for (std::size_t face = 0; face < mesh_.triangles.size(); ++face) {
+      for_each_cell(mesh_.triangles[face], [&](std::size_t cell) {
+        faces_[next[cell]++] = static_cast<std::uint32_t>(face);
+      });
+    }
+  }
+
+  const TriangleMesh& mesh_;
+  double distance_;
+  Box bounds_;
+  double cell_size_ = 1.0;
+  std::array<int, 3> count_{1, 1, 1};
+  std::vector<std::uint32_t> first_;  ///< where each cell's faces begin in faces_
+  std::vector<std::uint32_t> faces_;
+};
+
+}  // namespace
+
+double coverage_of(std::span<const Vec3> points, const TriangleMesh& mesh, double distance) {
+  if (!(distance > 0.0) || !std::isfinite(distance)) {
+    throw InvalidArgument("coverage_of: distance must be positive and finite, got " +
+                          std::to_string(distance));
+  }
+  if (points.empty()) return 1.0;
+  if (mesh.triangles.empty()) return 0.0;
+
+  const FaceGrid grid(mesh, distance);
+  constexpr std::size_t kPointsPerBlock = 16'384;
+  std::vector<std::size_t> near((points.size() + kPointsPerBlock - 1) / kPointsPerBlock, 0);
+  parallel_for(points.size(), kPointsPerBlock, [&](std::size_t begin, std::size_t end) {
+    std::size_t& count = near[begin / kPointsPerBlock];
+    for (std::size_t i = begin; i < end; ++i)
+      count += grid.is_near(points[i]) ? 1U : 0U;
+  });
+  std::size_t total = 0;
+  for (const std::size_t count : near)
+    total += count;
+  return static_cast<double>(total) / static_cast<double>(points.size());
+}
+
+}  // namespace rangezip

@@ -1,0 +1,204 @@
+#include "core/reconstruct/reconstruct.h"
+
+#include <chrono>
+#include <ctime>
+#include <string>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+#include "core/finish/self_intersection.h"
+#include "core/mesh/coverage.h"
+#include "core/plan/spacing.h"
+#include "core/plan/view_planner.h"
+#include "core/reconstruct/resolution.h"
+#include "core/reconstruct/scan_recipe.h"
+
+namespace rangezip {
+
+namespace {
+
+constexpr int kFillRounds = 2;
+constexpr int kFillViewsPerRound = 6;
+constexpr double kMinFillLoop = 6.0;  ///< pixel sides; shorter loops are left to the finish
+constexpr std::size_t kAreaSamples = 400'000;  ///< of polygons, to plan and to judge coverage
+
+/// The share of the whole run at which each stage begins, from measured runs.
+constexpr double kPlanShare = 0.02;
+constexpr double kScanShare = 0.15;
+constexpr double kFillShare = 0.40;
+constexpr double kFinishShare = 0.50;
+constexpr double kCheckShare = 0.95;
+
+/// Wall and processor time of consecutive stages.
+class StageClock {
+ public:
+  explicit StageClock(std::vector<StageTime>& stages) : stages_(stages) { restart(); }
+
+  /// Books the time since the last call to `stage`.
+  void finish(const char* stage) {
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_start_;
+    const double cpu = static_cast<double>(std::clock() - cpu_start_) / CLOCKS_PER_SEC;
+    stages_.push_back({stage, wall.count(), cpu});
+    restart();
+  }
+
+ private:
+  void restart() {
+    wall_start_ = std::chrono::steady_clock::now();
+    cpu_start_ = std::clock();
+  }
+
+  std::vector<StageTime>& stages_;
+  std::chrono::steady_clock::time_point wall_start_;
+  std::clock_t cpu_start_ = 0;
+};
+
+/// A part of the caller's progress bar.
+Progress part_of(const Progress& whole, const char* stage, double begin, double end) {
+  Progress part{.stop = whole.stop};
+  if (whole.report) {
+    part.report = [report = whole.report, stage, begin, end](std::string_view, double share) {
+      report(stage, begin + share * (end - begin));
+    };
+  }
+  return part;
+}
+
+void check_options(const Scene& scene, const ReconstructOptions& options) {
+  if (scene.empty()) throw InvalidArgument("reconstruct: the scene must not be empty");
+  if (options.views && *options.views < 1) {
+    throw InvalidArgument("reconstruct: views must be at least 1, got " +
+                          std::to_string(*options.views));
+  }
+  if (options.threads < 0) {
+    throw InvalidArgument("reconstruct: threads must not be negative, got " +
+                          std::to_string(options.threads));
+  }
+}
+
+/// One automatic run. Every change to the mesh is a command of a Session, so the run can be
+/// replayed; this class only decides which commands.
+class Run {
+ public:
+  Run(const Scene& scene, Rasterizer& rasterizer, const ReconstructOptions& options,
+      const Progress& progress)
+      : scene_(scene),
+        rasterizer_(rasterizer),
+        options_(options),
+        progress_(progress),
+        clock_(result_.report.stages),
+        session_(scene, SessionOptions{.history_bytes = 0}) {}
+
+  ReconstructResult result() {
+    choose_resolution_and_views();
+    scan_planned_views();
+    scan_fill_views();
+    finish_mesh();
+    check_result();
+    return std::move(result_);
+  }
+
+ private:
+  void apply(Command command, const Progress& progress) {
+    result_.report.commands.push_back(session_.apply(command, rasterizer_, progress));
+    result_.commands.push_back(std::move(command));
+  }
+
+  void choose_resolution_and_views() {
+    progress_.at("resolution", 0.0);
+    samples_ = scene_.points();
+    if (scene_.triangle_count() > 0) {
+      const std::vector<Vec3> on_polygons = area_samples(scene_, kAreaSamples);
+      samples_.insert(samples_.end(), on_polygons.begin(), on_polygons.end());
+    }
+    const Resolution resolution =
+        choose_resolution(scene_, samples_, options_.pixel_size, options_.triangles);
+    recipe_ = {.method = options_.method,
+               .bounds = resolution.bounds,
+               .pixel_size = resolution.pixel_size,
+               .point_size = resolution.point_size,
+               .has_points = scene_.point_count() > 0};
+    result_.report.pixel_size = recipe_.pixel_size;
+    clock_.finish("resolution");
+
+    ViewPlanOptions plan_options;
+    if (options_.views) plan_options.max_views = *options_.views;
+    const ViewPlan plan = plan_views(rasterizer_, samples_, recipe_.pixel_size, plan_options,
+                                     part_of(progress_, "plan views", kPlanShare, kScanShare));
+    result_.report.views = plan.directions;
+    result_.report.planned_views = plan.directions.size();
+    if (!plan.coverage.empty()) result_.report.planned_coverage = plan.coverage.back();
+    clock_.finish("plan views");
+  }
+
+  void scan_planned_views() {
+    const std::size_t count = result_.report.planned_views;
+    for (std::size_t view = 0; view < count; ++view) {
+      const double step = (kFillShare - kScanShare) / static_cast<double>(count);
+      const double begin = kScanShare + step * static_cast<double>(view);
+      apply(planned_scan(recipe_, result_.report.views[view], static_cast<std::uint32_t>(view)),
+            part_of(progress_, "scan", begin, begin + step));
+    }
+    clock_.finish("scan");
+  }
+
+  void scan_fill_views() {
+    for (int round = 0; round < kFillRounds; ++round) {
+      const std::vector<Vec3> directions =
+          plan_fill_views(*session_.mesh(), kMinFillLoop * recipe_.pixel_size, kFillViewsPerRound);
+      if (directions.empty()) break;
+      for (const Vec3& direction : directions) {
+        const auto view = static_cast<std::uint32_t>(result_.report.views.size());
+        apply(fill_scan(recipe_, direction, view),
+              part_of(progress_, "fill views", kFillShare, kFinishShare));
+        result_.report.views.push_back(direction);
+      }
+    }
+    clock_.finish("fill views");
+  }
+
+  void finish_mesh() {
+    if (options_.finish) {
+      FinishMesh command;
+      command.options.method = *options_.finish;
+      command.options.pixel_size = recipe_.pixel_size;
+      apply(command, part_of(progress_, "finish", kFinishShare, kCheckShare));
+    }
+    clock_.finish("finish");
+  }
+
+  void check_result() {
+    progress_.at("check", kCheckShare);
+    const auto mesh = session_.mesh();
+    result_.report.mesh = report_mesh(*mesh);
+    result_.report.self_intersections = self_intersections(*mesh).size();
+    result_.report.coverage = coverage_of(samples_, *mesh, recipe_.pixel_size);
+    result_.mesh = *mesh;
+    clock_.finish("check");
+    progress_.at("done", 1.0);
+  }
+
+  const Scene& scene_;
+  Rasterizer& rasterizer_;
+  const ReconstructOptions& options_;
+  const Progress& progress_;
+  ReconstructResult result_;
+  StageClock clock_;
+  Session session_;
+  ScanRecipe recipe_;
+  std::vector<Vec3> samples_;  ///< points, then area samples of polygons
+};
+
+}  // namespace
+
+ReconstructResult reconstruct(const Scene& scene, Rasterizer& rasterizer,
+                              const ReconstructOptions& options, const Progress& progress) {
+  check_options(scene, options);
+  ReconstructResult result;
+  run_with_threads(options.threads,
+                   [&] { result = Run(scene, rasterizer, options, progress).result(); });
+  return result;
+}
+
+}  // namespace rangezip

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "core/base/geometry.h"
+#include "core/scene/scene.h"
+
+namespace rangezip {
+
+/// What an automatic run decides about the size of things before it scans.
+struct Resolution {
+  double pixel_size = 0.0;  ///< model units
+  int point_size = 1;       ///< pixels: larger than 1 where the pixel is finer than the spacing
+  Box bounds;               ///< of the object, without far outliers
+};
+
+/// Chooses the pixel side: as given; else so that the surface gets about `triangles`; else from the
+/// point spacing, or for polygons only so that they get about 100 K triangles. Never so fine that
+/// an image outgrows the rasterizer.
+/// @param samples the points of the scene, in its order, then area samples of its polygons
+/// @throws InvalidArgument for a pixel side or a target that is not positive.
+[[nodiscard]] Resolution choose_resolution(const Scene& scene, std::span<const Vec3> samples,
+                                           std::optional<double> pixel_size,
+                                           std::optional<std::size_t> triangles);
+
+}  // namespace rangezip

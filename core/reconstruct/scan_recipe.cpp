@@ -1,0 +1,75 @@
+#include "core/reconstruct/scan_recipe.h"
+
+namespace rangezip {
+
+namespace {
+
+constexpr double kCosine75Degrees = 0.2588190451025207;
+constexpr int kImageMargin = 4;  ///< pixels around the object, so that no pass meets the border
+
+AddScan framed_scan(const ScanRecipe& recipe, const Vec3& toward_viewer, std::uint32_t view) {
+  FramedCamera framed = frame_box(recipe.bounds, toward_viewer, recipe.pixel_size, kImageMargin);
+  AddScan command;
+  command.scan.camera = std::move(framed.camera);
+  command.scan.extent = framed.extent;
+  command.scan.point_size = recipe.point_size;
+  command.scan.triangulate = {.max_edge = 2.75, .max_slope_cosine = kCosine75Degrees};
+  command.stitch.view = view;
+  return command;
+}
+
+/// The passes of this project: plane-fit samples, local removal of what shines through, the
+/// visibility vote, correspondence in a depth band, clear and fill.
+AddScan automatic_scan(const ScanRecipe& recipe, const Vec3& toward_viewer, std::uint32_t view) {
+  AddScan command = framed_scan(recipe, toward_viewer, view);
+  if (recipe.has_points) {
+    command.scan.see_through = SeeThroughOptions{};
+    command.scan.plane_fit = PlaneFitOptions{};
+    command.scan.fill_holes = FillHolesOptions{};
+    command.vote = VoteOptions{.pixel_size = recipe.pixel_size};
+  }
+  command.stitch.method = StitchMethod::clear_and_fill;
+  return command;
+}
+
+/// The passes of the paper: z-buffer minimum, largest gap, averaged holes, median, ID buffer,
+/// zippering [Kobbelt, Botsch 2000, 4].
+AddScan paper_scan(const ScanRecipe& recipe, const Vec3& toward_viewer, std::uint32_t view) {
+  AddScan command = framed_scan(recipe, toward_viewer, view);
+  if (recipe.has_points) {
+    command.scan.back_side = BackSideOptions{};
+    command.scan.fill_holes = FillHolesOptions{};
+    command.scan.median = MedianFilterOptions{};
+  }
+  command.scan.correspondence.method = CorrespondenceMethod::id_buffer;
+  command.scan.smooth_quality = false;
+  command.stitch.method = StitchMethod::zipper;
+  return command;
+}
+
+AddScan base_scan(const ScanRecipe& recipe, const Vec3& toward_viewer, std::uint32_t view) {
+  return recipe.method == ReconstructMethod::paper ? paper_scan(recipe, toward_viewer, view)
+                                                   : automatic_scan(recipe, toward_viewer, view);
+}
+
+}  // namespace
+
+AddScan planned_scan(const ScanRecipe& recipe, const Vec3& toward_viewer, std::uint32_t view) {
+  constexpr std::size_t kMinPatchFaces = 40;
+  AddScan command = base_scan(recipe, toward_viewer, view);
+  command.scan.quality =
+      QualityMaskOptions{.hysteresis = recipe.method == ReconstructMethod::paper ? 1.0 : 0.8};
+  command.scan.triangulate.min_component = kMinPatchFaces;
+  return command;
+}
+
+AddScan fill_scan(const ScanRecipe& recipe, const Vec3& toward_viewer, std::uint32_t view) {
+  constexpr std::size_t kMinFillFaces = 3;
+  AddScan command = base_scan(recipe, toward_viewer, view);
+  command.scan.unmatched_only = true;
+  command.scan.clean_mask = {.erosions = 0, .dilations = 0};
+  command.scan.triangulate.min_component = kMinFillFaces;
+  return command;
+}
+
+}  // namespace rangezip

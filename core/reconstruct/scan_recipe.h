@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+
+#include "core/base/geometry.h"
+#include "core/reconstruct/reconstruct.h"
+#include "core/session/command.h"
+
+namespace rangezip {
+
+/// What every scan of an automatic run has in common.
+struct ScanRecipe {
+  ReconstructMethod method = ReconstructMethod::automatic;
+  Box bounds;               ///< what the image must show, model units
+  double pixel_size = 0.0;  ///< model units
+  int point_size = 1;       ///< pixels
+  bool has_points =
+      true;  ///< false: polygons only; passes against gaps between points are left out
+};
+
+/// The command that scans along -`toward_viewer` and stitches what is better or new.
+[[nodiscard]] AddScan planned_scan(const ScanRecipe& recipe, const Vec3& toward_viewer,
+                                   std::uint32_t view);
+
+/// The command that scans along -`toward_viewer` and adds only what the mesh does not cover yet:
+/// a fill view that may cut the old surface destroys coverage.
+[[nodiscard]] AddScan fill_scan(const ScanRecipe& recipe, const Vec3& toward_viewer,
+                                std::uint32_t view);
+
+}  // namespace rangezip
