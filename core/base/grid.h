@@ -4,6 +4,7 @@
 #include <compare>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -86,5 +87,9 @@ class Grid {
   Extent extent_;
   std::vector<T> pixels_;
 };
+
+/// Which pixels take part: 1 active, 0 not. One byte a pixel, so that it is a span, a NumPy array
+/// and a GL upload as it is.
+using Mask = Grid<std::uint8_t>;
 
 }  // namespace rangezip

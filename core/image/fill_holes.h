@@ -1,7 +1,7 @@
 #pragma once
 
+#include "core/base/grid.h"
 #include "core/image/range_image.h"
-#include "core/mask/mask.h"
 
 namespace rangezip {
 

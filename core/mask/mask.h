@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
 
 #include "core/base/geometry.h"
@@ -8,10 +7,6 @@
 #include "core/image/range_image.h"
 
 namespace rangezip {
-
-/// Which pixels take part: 1 active, 0 not. One byte a pixel, so that it is a span, a NumPy array
-/// and a GL upload as it is.
-using Mask = Grid<std::uint8_t>;
 
 /// Every pixel of the extent active.
 [[nodiscard]] Mask full_mask(Extent extent);
