@@ -1,6 +1,7 @@
 # rangezip_add_module(<name> SOURCES <...> HEADERS <...> [PUBLIC <libs>] [PRIVATE <libs>])
 # One library rangezip::<name>: its sources beside its headers, included from the repository root
-# (#include "core/base/grid.h"). Headers install to include/rangezip/<name>/...
+# (#include "core/base/grid.h"). Headers install to include/rangezip/<name>/...; the library is
+# the component <name> of the package (find_package(rangezip COMPONENTS <name>)).
 function(rangezip_add_module name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;HEADERS;PUBLIC;PRIVATE")
   add_library(rangezip_${name})
@@ -12,10 +13,12 @@ function(rangezip_add_module name)
   target_compile_features(rangezip_${name} PUBLIC cxx_std_20)
   rangezip_compile_options(rangezip_${name})
   target_link_libraries(rangezip_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
-  install(TARGETS rangezip_${name} EXPORT rangezipTargets
+  install(TARGETS rangezip_${name} EXPORT rangezip_${name}_targets
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
     FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/rangezip)
+  install(EXPORT rangezip_${name}_targets NAMESPACE rangezip::
+    FILE rangezip_${name}_targets.cmake DESTINATION ${RANGEZIP_PACKAGE_DIR})
 endfunction()
 
 # The warnings and floating-point flags of every target here.
