@@ -6,7 +6,8 @@
 
 namespace rangezip {
 
-/// The topology of a mesh in counts. O(faces).
+/// The topology of a mesh in counts, for any mesh whose indices are in range. A face with a
+/// repeated corner counts in `faces` and `degenerate_faces` only. O(faces).
 struct MeshReport {
   std::size_t vertices = 0;  ///< used by a face
   std::size_t faces = 0;
@@ -14,7 +15,7 @@ struct MeshReport {
   std::size_t components = 0;  ///< joined over shared edges
   std::size_t boundary_edges = 0;
   std::size_t boundary_loops = 0;
-  double longest_loop = 0.0;  ///< model units
+  double longest_loop = 0.0;             ///< model units
   std::size_t nonmanifold_edges = 0;     ///< with three or more faces
   std::size_t misoriented_edges = 0;     ///< two faces that run along it in the same direction
   std::size_t nonmanifold_vertices = 0;  ///< with more than one fan of faces
@@ -29,8 +30,8 @@ struct MeshReport {
 [[nodiscard]] MeshReport report_mesh(const TriangleMesh& mesh);
 
 /// Throws if the mesh breaks a rule that every operation here keeps: an index out of range, a
-/// coordinate that is not finite, a repeated corner, a directed edge in two faces, a vertex with two
-/// fans. For tests and for input from outside; O(faces).
+/// coordinate that is not finite, a repeated corner, a directed edge in two faces, a vertex with
+/// two fans. For tests and for input from outside; O(faces).
 /// @throws TopologyError naming the rule and the element.
 void check_mesh(const TriangleMesh& mesh);
 

@@ -8,7 +8,8 @@ namespace rangezip {
 
 Box bounds_of(const TriangleMesh& mesh) {
   Box bounds;
-  for (const Vec3& p : mesh.positions) bounds.add(p);
+  for (const Vec3& p : mesh.positions)
+    bounds.add(p);
   return bounds;
 }
 
@@ -24,7 +25,8 @@ void remove_unused_vertices(TriangleMesh& mesh) {
   constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> new_index(mesh.positions.size(), kUnused);
   for (const Triangle& triangle : mesh.triangles) {
-    for (const std::uint32_t corner : triangle) new_index[corner] = 0;
+    for (const std::uint32_t corner : triangle)
+      new_index[corner] = 0;
   }
   std::uint32_t next = 0;
   for (std::size_t i = 0; i < new_index.size(); ++i) {
@@ -37,7 +39,8 @@ void remove_unused_vertices(TriangleMesh& mesh) {
   mesh.positions.resize(next);
   if (!mesh.sources.empty()) mesh.sources.resize(next);
   for (Triangle& triangle : mesh.triangles) {
-    for (std::uint32_t& corner : triangle) corner = new_index[corner];
+    for (std::uint32_t& corner : triangle)
+      corner = new_index[corner];
   }
 }
 
