@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
+#include <vector>
 
 #include "core/base/geometry.h"
 #include "core/scene/scene.h"
@@ -9,25 +11,35 @@ namespace rangezip {
 
 /// How densely a cloud samples its surface.
 struct Spacing {
-  double median = 0.0;     ///< 1 / sqrt(density), model units
-  double quantile75 = 0.0; ///< three quarters of the cloud are at least this dense
-  double noise = 0.0;      ///< median distance of a point from its neighbours' plane, model units
+  double median = 0.0;      ///< 1 / sqrt(density), model units
+  double quantile75 = 0.0;  ///< three quarters of the cloud are at least this dense
+  double noise = 0.0;       ///< median distance (RMS) of points from their neighbours' plane
 };
 
-/// Estimates the spacing from the distance to the 16th neighbour of 300 points spread evenly over
-/// the cloud: d16 * sqrt(pi / 16). Exact neighbours by a linear scan: O(300 points).
+/// Estimates the spacing from the distance to the 16th neighbour of up to 300 points spread evenly
+/// over the cloud: d16 * sqrt(pi / 16), that is, as if those 16 filled a disc. Points at exactly
+/// one place count once, both as neighbours and as the points that are asked about. Exact
+/// neighbours by a scan over all points that asks few of the 300 per point: O(points), 30 ns each.
+/// The noise is measured against a plane, so curvature counts as noise where the surface bends
+/// within a few spacings.
 /// @throws InvalidArgument if fewer than three distinct points are given.
 [[nodiscard]] Spacing estimate_spacing(std::span<const Vec3> points);
-
-/// A box that leaves out far outliers: the box of the points that remain when those are cut that
-/// lie farther from the middle half of the cloud than a few times its size, per axis. O(points).
-[[nodiscard]] Box robust_bounds(std::span<const Vec3> points);
 
 /// The pixel side for a cloud: 2.2 times the mean of median and 75 % spacing, at least 4 noise.
 [[nodiscard]] double pixel_size_from_spacing(const Spacing& spacing);
 
-/// Points spread evenly over the triangles of the scene (stratified by area, deterministic), about
-/// `count`, for planning views of polygons. Empty if the scene has no triangles.
+/// A box that leaves out far outliers. Per axis the middle half of the cloud is widened on both
+/// sides by four times the middle half's largest side, then further, a side's length
+/// at a time, as long as the step before held a thousandth of the cloud (so a mast on a flat ground
+/// stays); the box of the points in between. Empty for no points. O(points).
+[[nodiscard]] Box robust_bounds(std::span<const Vec3> points);
+
+/// The same for a scene: its clouds taken together without far outliers, its polygons whole.
+[[nodiscard]] Box robust_bounds(const Scene& scene);
+
+/// Points spread evenly over the triangles of the scene, each triangle with its share of the area,
+/// about `count` in all, for planning views of polygons: every point of the scene's surface has
+/// a sample within a few times sqrt(area / count). Empty if the scene has no triangle with area.
 [[nodiscard]] std::vector<Vec3> area_samples(const Scene& scene, std::size_t count);
 
 /// Area of all triangles of the scene, model units squared.

@@ -12,12 +12,12 @@ namespace rangezip {
 
 struct ViewPlanOptions {
   int max_views = 20;
-  int candidates = 150;          ///< directions on the sphere, besides the six axes
-  std::size_t subset = 60'000;   ///< points used for planning
+  int candidates = 150;             ///< directions on the sphere, besides the six axes
+  std::size_t subset = 60'000;      ///< points used for planning
   double max_slope_cosine = 0.342;  ///< a point is seen well if its surface is tilted less (70
                                     ///< degrees)
-  double coverage = 0.999;       ///< stop when this share of the points is seen
-  double min_gain = 0.0005;      ///< stop when a view adds less than this share (after six views)
+  double coverage = 0.999;          ///< stop when this share of the points is seen
+  double min_gain = 0.0005;  ///< stop when a view adds less than this share (after six views)
 };
 
 /// Directions toward the viewer, best first, and what they reach.
@@ -37,10 +37,12 @@ struct ViewPlan {
                                   double pixel_size, const ViewPlanOptions& options = {},
                                   const Progress& progress = {});
 
-/// Up to `max_views` directions that look into the boundary loops of `mesh` (loops longer than
-/// `min_loop`, model units): greedy over the normals of the faces at the loops
-/// (the automatic green lasso).
+/// Up to `max_views` directions that look into the boundary loops of `mesh` that are longer than
+/// `min_loop` (model units): greedy over the normals of the faces at the loops, in decreasing order
+/// of what they may fill (the automatic green lasso). O(faces).
+/// @param used directions that were tried before; none within 13 degrees of them is returned
+/// @pre the mesh is oriented and manifold
 [[nodiscard]] std::vector<Vec3> plan_fill_views(const TriangleMesh& mesh, double min_loop,
-                                                int max_views);
+                                                int max_views, std::span<const Vec3> used = {});
 
 }  // namespace rangezip
