@@ -16,14 +16,16 @@ namespace rangezip {
 /// What a reader found in one file, and what it left out and why.
 struct InputReport {
   std::string path;
-  std::string format;                  ///< "ply binary_little_endian", "xyz", "obj", ...
-  std::size_t points = 0;              ///< taken
-  std::size_t triangles = 0;           ///< taken, after splitting polygons and strips
-  std::size_t polygons = 0;            ///< in the file, before splitting
-  std::size_t nonfinite_points = 0;    ///< skipped
-  std::size_t nonfinite_polygons = 0;  ///< skipped: a corner is not finite
-  std::size_t degenerate_polygons = 0; ///< skipped: fewer than three distinct corners
-  std::vector<std::string> notes;      ///< ignored elements and the like
+  std::string format;                   ///< "ply binary_little_endian", "xyz", "obj", ...
+  std::size_t points = 0;               ///< taken
+  std::size_t triangles = 0;            ///< taken, after splitting polygons and strips
+  std::size_t polygons = 0;             ///< in the file, before splitting
+  std::size_t nonfinite_points = 0;     ///< skipped
+  std::size_t nonfinite_polygons = 0;   ///< skipped: a corner is not finite
+  std::size_t degenerate_polygons = 0;  ///< skipped: fewer than three distinct corners
+  Box bounds;                           ///< of all finite positions, in the file's own coordinates
+  Vec3 origin{0.0};  ///< about which positions are stored, in the file's own coordinates
+  std::vector<std::string> notes;  ///< ignored elements and the like
 };
 
 /// One cloud or one soup, with its place.
@@ -39,8 +41,8 @@ struct InputFile {
 };
 
 /// Reads whatever `path` is, by its name (".gz" of each is unpacked): PLY points and meshes,
-/// XYZ/PTS/ASC/CSV/TXT text, OBJ, OFF, STL, and .conf lists of Stanford range scans. Polygons become
-/// triangles; vertices of a file without faces, and OBJ point elements, become points.
+/// XYZ/PTS/ASC/CSV/TXT text, OBJ, OFF, STL, and .conf lists of Stanford range scans. Polygons
+/// become triangles; vertices of a file without faces, and OBJ point elements, become points.
 /// Positions are stored in float about a local origin near the data, so large coordinates lose
 /// nothing.
 /// @throws IoError naming file, place and rule for anything that is not what it claims to be.
@@ -48,7 +50,8 @@ struct InputFile {
                                    const Progress& progress = {});
 
 /// All files as one scene, in order.
-/// @throws IoError as read_input(); also if fewer than three distinct finite points (or one triangle)
+/// @throws IoError as read_input(); also if fewer than three distinct finite points (or one
+/// triangle)
 ///     remain in all of them.
 struct SceneInput {
   Scene scene;

@@ -7,14 +7,21 @@
 namespace rangezip {
 
 struct MeshFileOptions {
-  bool ascii = false;        ///< PLY and STL: text instead of binary
-  bool with_sources = false; ///< PLY: source primitive and view of every vertex as properties
+  bool ascii = false;         ///< PLY and STL: text instead of binary
+  bool with_sources = false;  ///< PLY: source primitive and view of every vertex, as properties
+                              ///< `uint source_primitive` and `uint source_view`
 };
 
-/// Writes PLY (positions as doubles), OBJ, OFF or STL by the extension of `path`. Written beside the
-/// target and renamed, so a failure leaves no partial file and an input can be overwritten safely.
-/// Text has the fewest digits that give back the same double.
+/// Can write_mesh() write there? For a refusal before any work.
+/// @throws IoError unless the extension is .ply, .obj, .off or .stl and the folder exists.
+void check_mesh_path(const std::filesystem::path& path);
+
+/// Writes PLY (positions as doubles), OBJ, OFF or STL by the extension of `path`. Written beside
+/// the target and renamed, so a failure leaves no partial file and an input can be overwritten
+/// safely. Text has the fewest digits that give back the same double; binary STL holds floats only.
 /// @throws IoError for an unknown extension or if the file cannot be written in full.
+/// @throws InvalidArgument if `with_sources` is asked of a mesh without sources.
+/// @pre every corner is the index of a position
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh,
                 const MeshFileOptions& options = {});
 

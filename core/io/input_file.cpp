@@ -1,0 +1,143 @@
+#include "core/io/input_file.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/io/raw_geometry.h"
+
+namespace rangezip {
+
+namespace {
+
+Mat4 translation(const Vec3& offset) {
+  Mat4 matrix{1.0};
+  matrix[3] = Vec4(offset, 1.0);
+  return matrix;
+}
+
+/// Reads about the origin 0 and, if the data are far from it, once more about a nearer one: most
+/// files are read once, and never are more than the floats in memory.
+RawGeometry read_about_best_origin(const FileBytes& file, const std::string& type,
+                                   const Progress& progress) {
+  constexpr auto kPrecision = PositionList::Precision::local_float;
+  Vec3 origin{0.0};
+  {
+    RawGeometry geometry = read_geometry(file, type, kPrecision, origin, progress);
+    origin = geometry.positions.best_origin();
+    if (origin == Vec3{0.0}) return geometry;
+  }
+  return read_geometry(file, type, kPrecision, origin, progress);
+}
+
+/// Drops the positions that are not finite; indices of the others move down.
+void compact(std::vector<Vec3f>& positions, std::vector<Triangle>& triangles) {
+  std::vector<std::uint32_t> new_index(positions.size());
+  std::uint32_t next = 0;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    new_index[i] = next;
+    if (!std::isfinite(positions[i].x)) continue;
+    positions[next++] = positions[i];
+  }
+  positions.resize(next);
+  for (Triangle& triangle : triangles) {
+    for (std::uint32_t& corner : triangle)
+      corner = new_index[corner];
+  }
+}
+
+PointCloud points_of(RawGeometry& geometry) {
+  PointCloud cloud;
+  if (geometry.polygons == 0) {
+    cloud.positions = geometry.positions.take_local();
+    if (geometry.positions.nonfinite() != 0) {
+      std::erase_if(cloud.positions, [](const Vec3f& p) { return !std::isfinite(p.x); });
+    }
+    return cloud;
+  }
+  for (const std::uint32_t index : geometry.point_elements) {
+    if (geometry.positions.is_finite(index)) {
+      cloud.positions.emplace_back(geometry.positions[index]);
+    }
+  }
+  return cloud;
+}
+
+void note_unused(const RawGeometry& geometry, std::vector<std::string>& notes) {
+  std::vector<bool> is_used(geometry.positions.size(), false);
+  for (const std::uint32_t corner : geometry.corners)
+    is_used[corner] = true;
+  for (const std::uint32_t index : geometry.point_elements)
+    is_used[index] = true;
+  const auto unused = std::count(is_used.begin(), is_used.end(), false);
+  if (unused != 0) notes.push_back(std::to_string(unused) + " vertices in no polygon are left out");
+}
+
+InputFile read_one(const std::filesystem::path& path, const std::string& type,
+                   const Mat4& world_from_file, const Progress& progress) {
+  const FileBytes file(path);
+  RawGeometry geometry = read_about_best_origin(file, type, progress);
+  InputReport report{.path = file.name(),
+                     .format = geometry.format,
+                     .polygons = geometry.polygons,
+                     .nonfinite_points = geometry.positions.nonfinite(),
+                     .bounds = geometry.positions.bounds(),
+                     .origin = geometry.positions.origin(),
+                     .notes = std::move(geometry.notes)};
+  InputFile input;
+  const Mat4 world_from_item = world_from_file * translation(geometry.positions.origin());
+  if (geometry.polygons != 0) note_unused(geometry, report.notes);
+  SplitPolygons split = split_polygons(geometry);
+  report.nonfinite_polygons = split.nonfinite;
+  report.degenerate_polygons = split.degenerate;
+  report.triangles = split.triangles.size();
+  PointCloud cloud = points_of(geometry);
+  report.points = cloud.positions.size();
+  if (!cloud.positions.empty()) {
+    input.items.push_back({.cloud = std::make_shared<const PointCloud>(std::move(cloud)),
+                           .world_from_item = world_from_item});
+  }
+  if (!split.triangles.empty()) {
+    TriangleSoup soup{.positions = geometry.positions.take_local(),
+                      .triangles = std::move(split.triangles)};
+    if (report.nonfinite_points != 0) compact(soup.positions, soup.triangles);
+    input.items.push_back({.soup = std::make_shared<const TriangleSoup>(std::move(soup)),
+                           .world_from_item = world_from_item});
+  }
+  if (input.items.empty()) {
+    file.fail(report.polygons == 0
+                  ? "whole file: none of its " + std::to_string(report.nonfinite_points) +
+                        " points is finite"
+                  : "whole file: none of its " + std::to_string(report.polygons) +
+                        " polygons has three distinct finite corners");
+  }
+  input.reports.push_back(std::move(report));
+  return input;
+}
+
+}  // namespace
+
+InputFile read_input(const std::filesystem::path& path, const Progress& progress) {
+  return read_one(path, file_type(path), Mat4{1.0}, progress);
+}
+
+SceneInput read_scene(std::span<const std::filesystem::path> paths, const Progress& progress) {
+  if (paths.empty()) throw InvalidArgument("read_scene: paths must not be empty");
+  SceneInput input;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    progress.at("read", static_cast<double>(i) / static_cast<double>(paths.size()));
+    InputFile file = read_input(paths[i], progress);
+    for (InputItem& item : file.items) {
+      if (item.cloud) {
+        input.scene.add(std::move(item.cloud), item.world_from_item);
+      } else {
+        input.scene.add(std::move(item.soup), item.world_from_item);
+      }
+    }
+    std::move(file.reports.begin(), file.reports.end(), std::back_inserter(input.reports));
+  }
+  return input;
+}
+
+}  // namespace rangezip

@@ -1,0 +1,22 @@
+#include "core/io/mesh_file.h"
+#include "core/io/raw_geometry.h"
+
+namespace rangezip {
+
+TriangleMesh read_mesh(const std::filesystem::path& path) {
+  const FileBytes file(path);
+  RawGeometry geometry =
+      read_geometry(file, file_type(path), PositionList::Precision::exact, Vec3{0.0}, {});
+  TriangleMesh mesh;
+  mesh.triangles = split_polygons(geometry).triangles;
+  if (mesh.triangles.empty()) {
+    file.fail("whole file: a mesh has at least one face with three distinct finite corners; " +
+              std::to_string(geometry.polygons) + " faces were found");
+  }
+  const bool has_nonfinite = geometry.positions.nonfinite() != 0;
+  mesh.positions = geometry.positions.take_exact();
+  if (has_nonfinite) remove_unused_vertices(mesh);
+  return mesh;
+}
+
+}  // namespace rangezip

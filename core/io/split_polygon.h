@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/geometry.h"
+
+namespace rangezip {
+
+/// Cuts a polygon into triangles of the same orientation: a fan if it is convex, else ear by ear
+/// in the plane that fits it best. Triangles with two corners at the same position are left out.
+/// O(n) if convex, else O(n^2) or, for twisted shapes, O(n^3).
+/// @param polygon corners, as indices of `positions`
+/// @param positions finite, one per corner, in the order of `polygon`
+/// @param triangles the pieces are appended to it
+void split_polygon(std::span<const std::uint32_t> polygon, std::span<const Vec3> positions,
+                   std::vector<Triangle>& triangles);
+
+}  // namespace rangezip
