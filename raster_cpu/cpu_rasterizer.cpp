@@ -1,1 +1,176 @@
 #include "raster_cpu/cpu_rasterizer.h"
+
+#include <algorithm>
+
+#include "core/base/parallel.h"
+#include "raster_cpu/fixed_point.h"
+#include "raster_cpu/key_buffer.h"
+#include "raster_cpu/point_moments.h"
+#include "raster_cpu/point_raster.h"
+#include "raster_cpu/triangle_raster.h"
+
+namespace rangezip {
+
+namespace {
+
+/// Into how many parts a scene is cut, each drawn into its own buffer. A part must be worth the
+/// clearing and merging of its buffer. Their number cannot show: the minimum of the keys does not
+/// depend on the order (R9).
+std::size_t part_count(std::span<const DrawItem> items, Extent extent) {
+  constexpr std::size_t kLeastPrimitives = std::size_t{1} << 16;
+  std::size_t primitives = 0;
+  for (const DrawItem& item : items)
+    primitives += primitive_count(item);
+  const std::size_t worthwhile = primitives / std::max(kLeastPrimitives, extent.count() / 2);
+  return std::clamp<std::size_t>(worthwhile, 1, static_cast<std::size_t>(thread_count()));
+}
+
+std::size_t blocks_in(std::size_t count, std::size_t grain) {
+  return (count + grain - 1) / grain;
+}
+
+/// Snaps positions for several threads. @return number rejected by R3 or R4.
+std::size_t snap_in_parallel(const RowTransform& rows, std::span<const Vec3f> positions,
+                             std::span<SnappedPosition> snapped) {
+  constexpr std::size_t kGrain = std::size_t{1} << 14;
+  std::vector<std::size_t> rejected(blocks_in(positions.size(), kGrain));
+  parallel_for(positions.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    const auto from = positions.subspan(begin, end - begin);
+    const auto to = snapped.subspan(begin, end - begin);
+    rejected[begin / kGrain] = snap_positions(rows, from, to);
+    reject_clipped(rows, from, to);
+  });
+  std::size_t sum = 0;
+  for (const std::size_t count : rejected)
+    sum += count;
+  return sum;
+}
+
+/// Draws one item, its k-th part into the k-th buffer, and counts what was dropped.
+class ItemPainter {
+ public:
+  ItemPainter(const View& view, const DepthBand* band, std::vector<std::vector<PixelKey>>& buffers,
+              std::size_t parts, std::vector<SnappedPosition>& scratch)
+      : view_(view), band_(band), buffers_(buffers), parts_(parts), scratch_(scratch) {}
+
+  void operator()(const DrawPoints& points) {
+    const RowTransform rows = make_row_transform(view_, points.world_from_item);
+    report_.dropped_points += draw_parts(
+        points.positions.size(), [&](std::size_t begin, std::size_t end, const DrawTarget& target) {
+          return draw_points(points, rows, begin, end, target);
+        });
+  }
+
+  void operator()(const DrawTriangles& item) {
+    const RowTransform rows = make_row_transform(view_, item.world_from_item);
+    if (scratch_.size() < item.positions.size()) scratch_.resize(item.positions.size());
+    const auto snapped = std::span(scratch_).first(item.positions.size());
+    snap_in_parallel(rows, item.positions, snapped);
+    report_.dropped_triangles += draw_parts(
+        item.triangles.size(), [&](std::size_t begin, std::size_t end, const DrawTarget& target) {
+          return draw_triangles(item, rows, snapped, begin, end, target);
+        });
+  }
+
+  [[nodiscard]] DrawReport report() const { return report_; }
+
+ private:
+  template <class Draw>
+  std::size_t draw_parts(std::size_t count, const Draw& draw) {
+    std::vector<std::size_t> dropped(parts_);
+    parallel_for(parts_, 1, [&](std::size_t first, std::size_t last) {
+      for (std::size_t part = first; part < last; ++part) {
+        const DrawTarget target{.extent = view_.extent(), .keys = buffers_[part], .band = band_};
+        dropped[part] = draw(count * part / parts_, count * (part + 1) / parts_, target);
+      }
+    });
+    std::size_t sum = 0;
+    for (const std::size_t n : dropped)
+      sum += n;
+    return sum;
+  }
+
+  const View& view_;
+  const DepthBand* band_;
+  std::vector<std::vector<PixelKey>>& buffers_;
+  std::size_t parts_;
+  std::vector<SnappedPosition>& scratch_;
+  DrawReport report_;
+};
+
+}  // namespace
+
+RasterizerInfo CpuRasterizer::info() const {
+  return {.name = "cpu",
+          .max_extent = {kMaxRasterExtent, kMaxRasterExtent},
+          .max_point_size = kMaxPointSize,
+          .subpixel_bits = kSubpixelBits,
+          .reproducible = true};
+}
+
+DrawReport CpuRasterizer::draw(const View& view, std::span<const DrawItem> items,
+                               const DepthBand* band, Framebuffer& out) {
+  const std::size_t pixels = view.extent().count();
+  const std::size_t parts = part_count(items, view.extent());
+  keys_.resize(std::max(keys_.size(), parts));
+  parallel_for(parts, 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t part = first; part < last; ++part)
+      keys_[part].assign(pixels, kEmptyPixel);
+  });
+  ItemPainter painter(view, band, keys_, parts, snapped_);
+  for (const DrawItem& item : items)
+    std::visit(painter, item);
+  constexpr std::size_t kGrain = std::size_t{1} << 16;
+  parallel_for(pixels, kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t part = 1; part < parts; ++part) {
+      merge_keys(std::span(keys_[0]).subspan(begin, end - begin),
+                 std::span(keys_[part]).subspan(begin, end - begin));
+    }
+  });
+  unpack_keys(keys_[0], view.extent(), out);
+  return painter.report();
+}
+
+DrawReport CpuRasterizer::do_render(const View& view, std::span<const DrawItem> items,
+                                    Framebuffer& out) {
+  return draw(view, items, nullptr, out);
+}
+
+DrawReport CpuRasterizer::do_render_in_band(const View& view, std::span<const DrawItem> items,
+                                            const DepthBand& band, Framebuffer& out) {
+  return draw(view, items, &band, out);
+}
+
+DrawReport CpuRasterizer::do_accumulate(const View& view, std::span<const DrawItem> items,
+                                        const AccumulateWindow& window, Grid<PixelMoments>& out) {
+  const Extent extent = view.extent();
+  out.reset(extent);
+  counts_.assign(extent.count(), 0);
+  const MomentTarget target{
+      .extent = extent, .window = &window, .moments = out.pixels(), .counts = counts_};
+  // Private sums per thread would cost 80 bytes a pixel each. Instead a chunk of points is
+  // snapped by all threads, then each thread adds the whole chunk to its own rows of pixels.
+  constexpr std::size_t kChunk = std::size_t{1} << 16;
+  const auto height = static_cast<std::size_t>(extent.height);
+  const std::size_t rows_per_band = blocks_in(height, static_cast<std::size_t>(thread_count()));
+  snapped_.resize(std::max(snapped_.size(), kChunk));
+  DrawReport report;
+  for (const DrawItem& item : items) {
+    const auto* points = std::get_if<DrawPoints>(&item);
+    if (points == nullptr) continue;
+    const RowTransform rows = make_row_transform(view, points->world_from_item);
+    for (std::size_t at = 0; at < points->positions.size(); at += kChunk) {
+      const std::size_t count = std::min(kChunk, points->positions.size() - at);
+      const auto snapped = std::span(snapped_).first(count);
+      report.dropped_points +=
+          snap_in_parallel(rows, points->positions.subspan(at, count), snapped);
+      const auto votes = points->votes.empty() ? points->votes : points->votes.subspan(at, count);
+      parallel_for(height, rows_per_band, [&](std::size_t begin, std::size_t end) {
+        add_moments(snapped, votes, {static_cast<int>(begin), static_cast<int>(end) - 1}, target);
+      });
+    }
+  }
+  return report;
+}
+
+}  // namespace rangezip

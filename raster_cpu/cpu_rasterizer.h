@@ -1,11 +1,18 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "core/raster/rasterizer.h"
+#include "core/raster/row_transform.h"
 
 namespace rangezip {
 
 /// The reference: docs/rasterization.md in code, the same bits everywhere. Uses the threads of the
 /// enclosing run_with_threads(); the image never depends on their number.
+///
+/// Keeps its working memory from call to call: 8 bytes a pixel (times the threads that draw, for
+/// large scenes) and 12 bytes a corner of the largest item.
 class CpuRasterizer final : public Rasterizer {
  public:
   CpuRasterizer() = default;
@@ -19,6 +26,13 @@ class CpuRasterizer final : public Rasterizer {
                                const DepthBand& band, Framebuffer& out) override;
   DrawReport do_accumulate(const View& view, std::span<const DrawItem> items,
                            const AccumulateWindow& window, Grid<PixelMoments>& out) override;
+
+  DrawReport draw(const View& view, std::span<const DrawItem> items, const DepthBand* band,
+                  Framebuffer& out);
+
+  std::vector<std::vector<std::uint64_t>> keys_;  ///< one buffer per part of the scene
+  std::vector<SnappedPosition> snapped_;
+  std::vector<std::uint32_t> counts_;
 };
 
 }  // namespace rangezip

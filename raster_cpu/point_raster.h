@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstddef>
+
+#include "core/raster/draw_item.h"
+#include "core/raster/row_transform.h"
+#include "raster_cpu/key_buffer.h"
+
+namespace rangezip {
+
+/// Draws the points begin..end-1 of an item as squares (R2-R5, R9, R11, R12).
+/// @return number of points rejected by R3 or R4
+std::size_t draw_points(const DrawPoints& points, const RowTransform& rows, std::size_t begin,
+                        std::size_t end, const DrawTarget& target);
+
+}  // namespace rangezip

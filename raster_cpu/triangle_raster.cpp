@@ -1,0 +1,242 @@
+#include "raster_cpu/triangle_raster.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "core/raster/split_triangle.h"
+#include "raster_cpu/edge_function.h"
+#include "raster_cpu/fixed_point.h"
+
+namespace rangezip {
+
+namespace {
+
+/// A triangle that may cover pixels: counter-clockwise, with the pixels of its box.
+struct TriangleSetup {
+  SnappedPosition a, b, c;
+  std::int64_t area = 0;  ///< doubled, in subpixels^2, greater than 0
+  std::int32_t z_min = 0;
+  PixelRange columns;
+  PixelRange rows;
+  bool is_small = false;  ///< less than 32 pixels wide and high
+};
+
+/// floor(sum of e * z / area) for edge values e >= 0 that add up to `area`, 0 <= z <= 2^26,
+/// exactly (R7): the value and the remainder.
+struct DepthQuotient {
+  std::int64_t value = 0;
+  std::int64_t remainder = 0;
+};
+
+DepthQuotient divide_depth(const std::array<std::int64_t, 3>& e,
+                           const std::array<std::int64_t, 3>& z, std::int64_t area) {
+  // Long division with two digits in base 2^13: area <= 2^46 and each digit below 2^14 keep every
+  // sum below 2^61.
+  constexpr int kDigitBits = 13;
+  constexpr std::int64_t kDigitMask = (1 << kDigitBits) - 1;
+  std::int64_t high = 0;
+  std::int64_t low = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    high += e[i] * (z[i] >> kDigitBits);
+    low += e[i] * (z[i] & kDigitMask);
+  }
+  low += high % area << kDigitBits;
+  return {(high / area << kDigitBits) + low / area, low % area};
+}
+
+void write(const DrawTarget& target, std::size_t pixel, std::int64_t depth, PrimitiveId id) {
+  target.keys[pixel] =
+      std::min(target.keys[pixel], make_key(static_cast<std::uint32_t>(depth), id));
+}
+
+bool is_in_depth_range(std::int64_t depth) {
+  return depth >= 0 && depth <= std::int64_t{kMaxDepth};
+}
+
+/// Tests every pixel of the box; 32-bit edges, and one division in double a pixel.
+template <class Accept>
+void draw_small(const TriangleSetup& t, PrimitiveId id, const DrawTarget& target,
+                const Accept& accept) {
+  using Edge = EdgeFunction<std::int32_t>;
+  const std::array<Edge, 3> edges{Edge(t.b, t.c), Edge(t.c, t.a), Edge(t.a, t.b)};
+  const std::array<std::int64_t, 3> z{t.a.z - t.z_min, t.b.z - t.z_min, t.c.z - t.z_min};
+  // Values at the centre of the box's first pixel and steps to its neighbours; `margin` is how
+  // far inside a centre lies, negative outside; `numerator` that of R7.
+  std::array<std::int32_t, 3> margin_row{};
+  std::array<std::int32_t, 3> step_x{};
+  std::array<std::int32_t, 3> step_y{};
+  std::int64_t numerator_row = 0;
+  std::int64_t numerator_step_x = 0;
+  std::int64_t numerator_step_y = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::int32_t e = edges[i].at(pixel_center(t.columns.first), pixel_center(t.rows.first));
+    margin_row[i] = e - edges[i].least_inside();
+    step_x[i] = edges[i].minus_dy * kSubpixels;
+    step_y[i] = edges[i].dx * kSubpixels;
+    numerator_row += e * z[i];
+    numerator_step_x += step_x[i] * z[i];
+    numerator_step_y += step_y[i] * z[i];
+  }
+  const auto area = static_cast<double>(t.area);
+  for (int y = t.rows.first; y <= t.rows.last; ++y) {
+    auto [m0, m1, m2] = margin_row;
+    std::int64_t numerator = numerator_row;
+    const std::size_t row = target.extent.index({0, y});
+    for (int x = t.columns.first; x <= t.columns.last; ++x) {
+      if ((m0 | m1 | m2) >= 0) {
+        // area < 2^27 and numerator < 2^53: the rounded quotient cannot reach the next integer.
+        const auto quotient = static_cast<std::int64_t>(static_cast<double>(numerator) / area);
+        const std::int64_t depth = t.z_min + quotient;
+        const std::size_t pixel = row + static_cast<std::size_t>(x);
+        if (is_in_depth_range(depth) && accept(pixel, static_cast<std::int32_t>(depth))) {
+          write(target, pixel, depth, id);
+        }
+      }
+      m0 += step_x[0];
+      m1 += step_x[1];
+      m2 += step_x[2];
+      numerator += numerator_step_x;
+    }
+    for (std::size_t i = 0; i < 3; ++i)
+      margin_row[i] += step_y[i];
+    numerator_row += numerator_step_y;
+  }
+}
+
+std::int64_t floor_divide(std::int64_t numerator, std::int64_t denominator) {
+  const std::int64_t quotient = numerator / denominator;
+  return quotient - (numerator % denominator < 0 ? 1 : 0);
+}
+
+/// The part of `span` where margin + step * (x - span.first) >= 0.
+PixelRange inside_edge(PixelRange span, std::int64_t margin, std::int64_t step) {
+  if (step == 0) return margin >= 0 ? span : PixelRange{};
+  const std::int64_t last = span.last - span.first;
+  if (step > 0) {
+    const std::int64_t enter = margin >= 0 ? 0 : (-margin + step - 1) / step;
+    return {span.first + static_cast<int>(std::min(enter, last + 1)), span.last};
+  }
+  const std::int64_t leave = margin < 0 ? -1 : margin / -step;
+  return {span.first, span.first + static_cast<int>(std::min(leave, last))};
+}
+
+/// Finds the covered span of each row by division, then carries R7's quotient and remainder from
+/// pixel to pixel: exact, and without a division a pixel.
+template <class Accept>
+void draw_large(const TriangleSetup& t, PrimitiveId id, const DrawTarget& target,
+                const Accept& accept) {
+  using Edge = EdgeFunction<std::int64_t>;
+  const std::array<Edge, 3> edges{Edge(t.b, t.c), Edge(t.c, t.a), Edge(t.a, t.b)};
+  const std::array<std::int64_t, 3> z{std::int64_t{t.a.z} - t.z_min, std::int64_t{t.b.z} - t.z_min,
+                                      std::int64_t{t.c.z} - t.z_min};
+  std::int64_t numerator_step = 0;  // below 3 * 2^31 * 2^26
+  for (std::size_t i = 0; i < 3; ++i)
+    numerator_step += edges[i].minus_dy * kSubpixels * z[i];
+  const std::int64_t depth_step = floor_divide(numerator_step, t.area);
+  const std::int64_t remainder_step = numerator_step - depth_step * t.area;
+
+  for (int y = t.rows.first; y <= t.rows.last; ++y) {
+    PixelRange span = t.columns;
+    for (const Edge& edge : edges) {
+      if (span.is_empty()) break;
+      const std::int64_t e = edge.at(pixel_center(span.first), pixel_center(y));
+      span = inside_edge(span, e - edge.least_inside(), edge.minus_dy * kSubpixels);
+    }
+    if (span.is_empty()) continue;
+    std::array<std::int64_t, 3> e{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      e[i] = edges[i].at(pixel_center(span.first), pixel_center(y));
+    }
+    auto [depth, remainder] = divide_depth(e, z, t.area);
+    depth += t.z_min;
+    const std::size_t row = target.extent.index({0, y});
+    for (int x = span.first; x <= span.last; ++x) {
+      const std::size_t pixel = row + static_cast<std::size_t>(x);
+      if (is_in_depth_range(depth) && accept(pixel, static_cast<std::int32_t>(depth))) {
+        write(target, pixel, depth, id);
+      }
+      depth += depth_step;
+      remainder += remainder_step;
+      if (remainder >= t.area) {
+        remainder -= t.area;
+        ++depth;
+      }
+    }
+  }
+}
+
+/// R6: orients the triangle and finds its pixels. @return false if it draws nothing.
+bool set_up(const SnappedTriangle& corners, Facing facing, Extent extent, TriangleSetup& t) {
+  const auto& [a, b, c] = corners;
+  const auto [x_min, x_max] = std::minmax({a.x, b.x, c.x});
+  const auto [y_min, y_max] = std::minmax({a.y, b.y, c.y});
+  t.columns = on_screen(centers_between(x_min, x_max), extent.width);
+  t.rows = on_screen(centers_between(y_min, y_max), extent.height);
+  if (t.columns.is_empty() || t.rows.is_empty()) return false;
+  const auto [z_min, z_max] = std::minmax({a.z, b.z, c.z});
+  if (z_max < 0 || z_min > static_cast<std::int32_t>(kMaxDepth)) return false;
+  const std::int64_t area = EdgeFunction<std::int64_t>(a, b).at(c.x, c.y);
+  if (area == 0 || (facing == Facing::front && area < 0) || (facing == Facing::back && area > 0)) {
+    return false;
+  }
+  t.a = a;
+  t.b = area > 0 ? b : c;
+  t.c = area > 0 ? c : b;
+  t.area = area > 0 ? area : -area;
+  t.z_min = z_min;
+  constexpr std::int32_t kSmall = 32 * kSubpixels;
+  t.is_small = x_max - x_min < kSmall && y_max - y_min < kSmall;
+  return true;
+}
+
+template <class Accept>
+void draw_triangle(const SnappedTriangle& corners, PrimitiveId id, Facing facing,
+                   const DrawTarget& target, const Accept& accept) {
+  TriangleSetup setup;
+  if (!set_up(corners, facing, target.extent, setup)) return;
+  if (setup.is_small) {
+    draw_small(setup, id, target, accept);
+  } else {
+    draw_large(setup, id, target, accept);
+  }
+}
+
+template <class Accept>
+std::size_t draw_all(const DrawTriangles& item, const RowTransform& rows,
+                     std::span<const SnappedPosition> snapped, std::size_t begin, std::size_t end,
+                     const DrawTarget& target, const Accept& accept) {
+  std::size_t dropped = 0;
+  std::vector<SnappedTriangle> pieces;
+  for (std::size_t i = begin; i < end; ++i) {
+    const auto& [a, b, c] = item.triangles[i];
+    const PrimitiveId id = item.first_id + static_cast<PrimitiveId>(i);
+    const SnappedTriangle corners{snapped[a], snapped[b], snapped[c]};
+    if (std::none_of(corners.begin(), corners.end(), is_rejected)) {
+      draw_triangle(corners, id, item.facing, target, accept);
+      continue;
+    }
+    pieces.clear();
+    if (!split_triangle(rows, {item.positions[a], item.positions[b], item.positions[c]}, pieces)) {
+      ++dropped;
+    }
+    for (const SnappedTriangle& piece : pieces) {
+      draw_triangle(piece, id, item.facing, target, accept);
+    }
+  }
+  return dropped;
+}
+
+}  // namespace
+
+std::size_t draw_triangles(const DrawTriangles& item, const RowTransform& rows,
+                           std::span<const SnappedPosition> snapped, std::size_t begin,
+                           std::size_t end, const DrawTarget& target) {
+  std::size_t dropped = 0;
+  with_acceptance(target, [&](const auto& accept) {
+    dropped = draw_all(item, rows, snapped, begin, end, target, accept);
+  });
+  return dropped;
+}
+
+}  // namespace rangezip

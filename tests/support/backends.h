@@ -1,0 +1,23 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "raster_cpu/cpu_rasterizer.h"
+
+namespace rangezip {
+
+/// A rasterizer under test. What a test asserts of one it asserts of all.
+struct Backend {
+  std::string name;
+  std::function<std::unique_ptr<Rasterizer>()> make;
+};
+
+/// Every exact backend that this build has; the first is the reference.
+inline std::vector<Backend> all_backends() {
+  return {{"cpu", [] { return std::make_unique<CpuRasterizer>(); }}};
+}
+
+}  // namespace rangezip
