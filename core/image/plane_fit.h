@@ -16,8 +16,8 @@ struct PlaneFitOptions {
 struct PlaneFitResult {
   RangeImage image;
   SlopeImage slopes;
-  std::size_t inside = 0;      ///< samples removed because the vote says they show an inside
-  std::size_t unsupported = 0; ///< samples kept as they were: no point in the window
+  std::size_t inside = 0;       ///< samples removed because the vote says they show an inside
+  std::size_t unsupported = 0;  ///< samples kept as they were: no point in the window
 };
 
 /// Replaces each sample by the value at the pixel centre of the plane that fits the points of its

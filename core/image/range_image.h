@@ -52,15 +52,15 @@ class RangeImage {
   Grid<double> depth_;
 };
 
-/// Tilt of the surface at each sample: change of eye depth per model unit to the right (x) and
-/// up (y), dimensionless; (0, 0) faces the viewer, length 1 is 45 degrees. Clamped to
-/// kMaxSlope per axis; (0, 0) where there is no sample.
+/// Tilt of the surface at each sample: change of eye depth from pixel to pixel, to the right (x)
+/// and up (y), in pixel sides at the sample, thus dimensionless; (0, 0) faces the viewer, length 1
+/// is 45 degrees. Clamped to kMaxSlope per axis; (0, 0) where there is no sample.
 using SlopeImage = Grid<glm::dvec2>;
 inline constexpr double kMaxSlope = 4.0;
 
 /// The range image of what was drawn, resolved from the IDs in double (R10): a point's own eye
-/// depth, a triangle's plane at the pixel centre (clamped to the depths of its corners, since a
-/// plane seen on edge has no depth); empty pixels kNoSample.
+/// depth, a triangle's plane at the pixel centre (clamped to the depths of its corners and the
+/// depth planes, since a plane seen on edge has no depth); empty pixels kNoSample.
 /// @param items what `framebuffer` was drawn from under `view`
 /// @throws InvalidArgument if the extents differ or an ID belongs to no item.
 [[nodiscard]] RangeImage make_range_image(const View& view, const Framebuffer& framebuffer,
@@ -70,6 +70,9 @@ inline constexpr double kMaxSlope = 4.0;
 /// halved where they disagree in sign (minmod), which keeps steps of depth from tilting what lies
 /// beside them. O(pixels).
 [[nodiscard]] SlopeImage estimate_slopes(const RangeImage& image);
+
+/// The same for one pixel. @pre has_sample(pixel)
+[[nodiscard]] glm::dvec2 estimate_slope(const RangeImage& image, Pixel pixel);
 
 /// sqrt(1 + slope^2): by how much a step of one pixel is longer on the surface than on the grid.
 [[nodiscard]] inline double stretch_of(const glm::dvec2& slope) {

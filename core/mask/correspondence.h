@@ -33,8 +33,7 @@ struct Correspondence {
 /// goes downhill in distance to the sample; accepted at any distance.
 /// Cost: one pass of the rasterizer over the mesh, O(faces + pixels).
 [[nodiscard]] Correspondence find_correspondence(Rasterizer& rasterizer, const RangeImage& image,
-                                                 const SlopeImage& slopes,
-                                                 const TriangleMesh& mesh,
+                                                 const SlopeImage& slopes, const TriangleMesh& mesh,
                                                  const CorrespondenceOptions& options = {});
 
 }  // namespace rangezip

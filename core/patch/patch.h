@@ -16,8 +16,8 @@ struct Patch {
 };
 
 struct TriangulateOptions {
-  double max_edge = kNoSample;  ///< in pixel sides; cells with a step of depth longer than
-                                ///< max_edge * sqrt(2) pixel sides stay open
+  double max_edge = kNoSample;    ///< in pixel sides; cells with a step of depth longer than
+                                  ///< max_edge * sqrt(2) pixel sides stay open
   double max_slope_cosine = 0.0;  ///< triangles with a smaller cosine between normal and line of
                                   ///< sight stay open; 0: all are kept
   std::size_t min_component = 1;  ///< pieces with fewer triangles are dropped

@@ -1,0 +1,215 @@
+#include "core/patch/patch.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "core/image/grid_cells.h"
+
+namespace rangezip {
+
+namespace {
+
+/// The surroundings of a grid vertex are eight wedges, counter-clockwise from the right: bit w is
+/// set where a triangle covers wedge w. A triangle whose right or sharp corner is at the vertex
+/// covers two wedges of a quadrant or one. Neighbouring wedges share an edge, so fans of triangles
+/// are runs of bits.
+constexpr int kWedges = 8;
+
+/// A triangle of the quadrant's cell that has a corner at the vertex.
+struct WedgeTriangle {
+  std::uint8_t which = 0;   ///< kLowerTriangle or kUpperTriangle
+  std::uint8_t wedges = 0;  ///< of the quadrant: 1 the first, 2 the second, counter-clockwise
+};
+
+/// For a cell with the vertex at its corner a, b, c, d (the vertex's quadrants 0, 1, 2, 3), cut
+/// from a to c: through corners a and c, so that each triangle takes one wedge there.
+constexpr std::array<std::array<WedgeTriangle, 2>, 4> kRisingWedges{{
+    {{{kLowerTriangle, 1}, {kUpperTriangle, 2}}},
+    {{{kLowerTriangle, 3}, {0, 0}}},
+    {{{kUpperTriangle, 1}, {kLowerTriangle, 2}}},
+    {{{kUpperTriangle, 3}, {0, 0}}},
+}};
+/// The same for a cell cut from b to d.
+constexpr std::array<std::array<WedgeTriangle, 2>, 4> kFallingWedges{{
+    {{{kLowerTriangle, 3}, {0, 0}}},
+    {{{kUpperTriangle, 1}, {kLowerTriangle, 2}}},
+    {{{kUpperTriangle, 3}, {0, 0}}},
+    {{{kLowerTriangle, 1}, {kUpperTriangle, 2}}},
+}};
+
+/// The cell in quadrant q of a vertex.
+constexpr Pixel cell_of_quadrant(Pixel vertex, int quadrant) {
+  return {vertex.x - (quadrant == 1 || quadrant == 2 ? 1 : 0), vertex.y - (quadrant >= 2 ? 1 : 0)};
+}
+
+const std::array<WedgeTriangle, 2>& wedge_triangles(std::uint8_t bits, int quadrant) {
+  const auto q = static_cast<std::size_t>(quadrant);
+  return (bits & kFallingDiagonal) != 0 ? kFallingWedges[q] : kRisingWedges[q];
+}
+
+/// Removes triangles until no two fans touch in a vertex only. Each removal can only disturb the
+/// corners of the removed triangle, so those are looked at again: O(pixels) in all.
+class FanCleaner {
+ public:
+  explicit FanCleaner(GridCells& cells) : cells_(cells) {}
+
+  void clean() {
+    const Extent extent = cells_.extent();
+    for (int y = 0; y < extent.height; ++y) {
+      for (int x = 0; x < extent.width; ++x)
+        keep_largest_fan({x, y});
+    }
+    while (!disturbed_.empty()) {
+      const Pixel vertex = disturbed_.back();
+      disturbed_.pop_back();
+      keep_largest_fan(vertex);
+    }
+  }
+
+ private:
+  [[nodiscard]] std::uint8_t covered_wedges(Pixel vertex) const {
+    unsigned wedges = 0;
+    for (int quadrant = 0; quadrant < 4; ++quadrant) {
+      const Pixel cell = cell_of_quadrant(vertex, quadrant);
+      if (cell.x < 0 || cell.y < 0 || cells_[cell] == 0) continue;
+      for (const WedgeTriangle& triangle : wedge_triangles(cells_[cell], quadrant)) {
+        if ((cells_[cell] & triangle.which) != 0) {
+          wedges |= static_cast<unsigned>(triangle.wedges) << (2 * quadrant);
+        }
+      }
+    }
+    return static_cast<std::uint8_t>(wedges);
+  }
+
+  /// The longest cyclic run of set bits; of equal ones the first.
+  static std::uint8_t longest_run(std::uint8_t wedges) {
+    std::uint8_t best = 0;
+    for (int start = 0; start < kWedges; ++start) {
+      const std::uint8_t turned = std::rotr(wedges, start);
+      if ((turned & 0x80U) != 0) continue;  // the run begins before `start`
+      const auto run = static_cast<std::uint8_t>((1U << std::countr_one(turned)) - 1U);
+      if (std::popcount(run) > std::popcount(best)) best = std::rotl(run, start);
+    }
+    return best;
+  }
+
+  void keep_largest_fan(Pixel vertex) {
+    const std::uint8_t wedges = covered_wedges(vertex);
+    if (wedges == 0 || wedges == 0xffU) return;
+    const std::uint8_t kept = longest_run(wedges);
+    if (kept == wedges) return;
+    for (int quadrant = 0; quadrant < 4; ++quadrant) {
+      const Pixel cell = cell_of_quadrant(vertex, quadrant);
+      if (cell.x < 0 || cell.y < 0) continue;
+      for (const WedgeTriangle& triangle : wedge_triangles(cells_[cell], quadrant)) {
+        const unsigned own = static_cast<unsigned>(triangle.wedges) << (2 * quadrant);
+        if ((cells_[cell] & triangle.which) != 0 && (own & kept) == 0) remove(cell, triangle.which);
+      }
+    }
+  }
+
+  void remove(Pixel cell, std::uint8_t which) {
+    for (const Pixel corner : grid_triangle(cell, cells_[cell], which)) {
+      disturbed_.push_back(corner);
+    }
+    cells_[cell] = static_cast<std::uint8_t>(cells_[cell] & ~which);
+  }
+
+  GridCells& cells_;
+  std::vector<Pixel> disturbed_;
+};
+
+constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
+
+/// Numbers the used pixels row by row, then lists the faces cell by cell.
+Patch patch_from_cells(const RangeImage& image, const GridCells& cells) {
+  const Extent extent = image.extent();
+  Grid<std::uint32_t> vertex_at(extent, kNoVertex);
+  std::size_t faces = 0;
+  const auto for_each_triangle = [&](const auto& visit) {
+    for (int y = 0; y + 1 < extent.height; ++y) {
+      for (int x = 0; x + 1 < extent.width; ++x) {
+        const std::uint8_t bits = cells[{x, y}];
+        for (const std::uint8_t which : {kLowerTriangle, kUpperTriangle}) {
+          if ((bits & which) != 0) visit(grid_triangle({x, y}, bits, which));
+        }
+      }
+    }
+  };
+  for_each_triangle([&](const std::array<Pixel, 3>& corners) {
+    ++faces;
+    for (const Pixel p : corners)
+      vertex_at[p] = 0;
+  });
+
+  Patch patch;
+  for (int y = 0; y < extent.height; ++y) {
+    for (int x = 0; x < extent.width; ++x) {
+      const Pixel p{x, y};
+      if (vertex_at[p] == kNoVertex) continue;
+      vertex_at[p] = static_cast<std::uint32_t>(patch.pixels.size());
+      patch.pixels.push_back(p);
+      patch.mesh.positions.push_back(image.position(p));
+    }
+  }
+  patch.mesh.triangles.reserve(faces);
+  for_each_triangle([&](const std::array<Pixel, 3>& corners) {
+    patch.mesh.triangles.push_back(
+        {vertex_at[corners[0]], vertex_at[corners[1]], vertex_at[corners[2]]});
+  });
+  return patch;
+}
+
+/// Number of triangles in the piece that each vertex belongs to.
+std::vector<std::size_t> sizes_of_pieces(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> parent(mesh.positions.size());
+  for (std::uint32_t v = 0; v < parent.size(); ++v)
+    parent[v] = v;
+  const auto find = [&](std::uint32_t v) {
+    while (parent[v] != v)
+      v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t other : {t[1], t[2]}) {
+      const auto [low, high] = std::minmax({find(t[0]), find(other)});
+      parent[high] = low;
+    }
+  }
+  std::vector<std::size_t> size(parent.size(), 0);
+  for (const Triangle& t : mesh.triangles)
+    ++size[find(t[0])];
+  for (std::uint32_t v = 0; v < parent.size(); ++v)
+    size[v] = size[find(v)];
+  return size;
+}
+
+void remove_small_pieces(Patch& patch, std::size_t min_triangles) {
+  const std::vector<std::size_t> size = sizes_of_pieces(patch.mesh);
+  std::erase_if(patch.mesh.triangles,
+                [&](const Triangle& t) { return size[t[0]] < min_triangles; });
+  // Vertices of a piece go or stay together, so both lists shrink by the same rule.
+  std::size_t kept = 0;
+  for (std::size_t v = 0; v < size.size(); ++v) {
+    if (size[v] >= min_triangles) patch.pixels[kept++] = patch.pixels[v];
+  }
+  patch.pixels.resize(kept);
+  remove_unused_vertices(patch.mesh);
+}
+
+}  // namespace
+
+Patch triangulate(const RangeImage& image, const Mask& active, const TriangulateOptions& options) {
+  GridCells cells = build_grid_cells(
+      image, active, {.max_edge = options.max_edge, .min_cosine = options.max_slope_cosine});
+  FanCleaner(cells).clean();
+  Patch patch = patch_from_cells(image, cells);
+  if (options.min_component > 1) remove_small_pieces(patch, options.min_component);
+  return patch;
+}
+
+}  // namespace rangezip
