@@ -67,7 +67,7 @@ std::string file_type(const std::filesystem::path& path) {
   return extension.empty() ? extension : extension.substr(1);
 }
 
-FileBytes::FileBytes(const std::filesystem::path& path) : name_(path.string()) {
+FileBytes::FileBytes(const std::filesystem::path& path, Packing packing) : name_(path.string()) {
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (file.value() < 0) fail("cannot be opened: " + system_reason());
   struct stat status {};
@@ -79,7 +79,7 @@ FileBytes::FileBytes(const std::filesystem::path& path) : name_(path.string()) {
     read_stream(file.value());
   }
   if (bytes_.empty()) fail("byte 0: the file is empty");
-  if (is_packed(path)) unpack();
+  if (packing == Packing::unpack && is_packed(path)) unpack();
   if (bytes_.empty()) fail("byte 0: the unpacked file is empty");
 }
 

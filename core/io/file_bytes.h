@@ -16,9 +16,11 @@ namespace rangezip {
 /// are read.
 class FileBytes {
  public:
+  enum class Packing { unpack, keep };  ///< what to do with a .gz
+
   /// @throws IoError if the file is missing, a folder, unreadable or empty, or if a .gz is cut or
   ///     corrupt.
-  explicit FileBytes(const std::filesystem::path& path);
+  explicit FileBytes(const std::filesystem::path& path, Packing packing = Packing::unpack);
   ~FileBytes();
   FileBytes(const FileBytes&) = delete;
   FileBytes& operator=(const FileBytes&) = delete;

@@ -12,7 +12,7 @@ namespace {
 
 using Reader = void (*)(const FileBytes&, RawGeometry&, const Progress&);
 
-constexpr std::array<std::pair<std::string_view, Reader>, 7> kReaders{{
+constexpr std::array<std::pair<std::string_view, Reader>, 9> kReaders{{
     {"ply", read_ply},
     {"xyz", read_xyz},
     {"pts", read_xyz},
@@ -20,6 +20,8 @@ constexpr std::array<std::pair<std::string_view, Reader>, 7> kReaders{{
     {"csv", read_xyz},
     {"txt", read_xyz},
     {"obj", read_obj},
+    {"off", read_off},
+    {"stl", read_stl},
 }};
 
 Reader reader_of(const std::string& type) {

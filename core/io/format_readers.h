@@ -12,6 +12,8 @@ namespace rangezip {
 /// @throws Cancelled if `progress` says so
 void read_ply(const FileBytes& file, RawGeometry& geometry, const Progress& progress);
 void read_xyz(const FileBytes& file, RawGeometry& geometry, const Progress& progress);
+void read_off(const FileBytes& file, RawGeometry& geometry, const Progress& progress);
+void read_stl(const FileBytes& file, RawGeometry& geometry, const Progress& progress);
 void read_obj(const FileBytes& file, RawGeometry& geometry, const Progress& progress);
 
 }  // namespace rangezip

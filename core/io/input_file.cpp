@@ -1,15 +1,19 @@
 #include "core/io/input_file.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <string>
 #include <utility>
 
-#include "core/base/error.h"
+#include "core/io/conf_file.h"
 #include "core/io/raw_geometry.h"
 
 namespace rangezip {
 
 namespace {
+
+constexpr const char* kListType = "conf";  ///< lists of Stanford range scans
 
 Mat4 translation(const Vec3& offset) {
   Mat4 matrix{1.0};
@@ -74,10 +78,21 @@ void note_unused(const RawGeometry& geometry, std::vector<std::string>& notes) {
   if (unused != 0) notes.push_back(std::to_string(unused) + " vertices in no polygon are left out");
 }
 
-InputFile read_one(const std::filesystem::path& path, const std::string& type,
-                   const Mat4& world_from_file, const Progress& progress) {
+std::string reason_for_nothing(const InputReport& report) {
+  if (report.polygons != 0) {
+    return "none of its " + std::to_string(report.polygons) +
+           " polygons has three distinct finite corners";
+  }
+  if (report.nonfinite_points != 0) {
+    return "none of its " + std::to_string(report.nonfinite_points) + " points is finite";
+  }
+  return "there is no point and no polygon in it";
+}
+
+InputFile read_one(const std::filesystem::path& path, const Mat4& world_from_file,
+                   const Progress& progress) {
   const FileBytes file(path);
-  RawGeometry geometry = read_about_best_origin(file, type, progress);
+  RawGeometry geometry = read_about_best_origin(file, file_type(path), progress);
   InputReport report{.path = file.name(),
                      .format = geometry.format,
                      .polygons = geometry.polygons,
@@ -105,13 +120,7 @@ InputFile read_one(const std::filesystem::path& path, const std::string& type,
     input.items.push_back({.soup = std::make_shared<const TriangleSoup>(std::move(soup)),
                            .world_from_item = world_from_item});
   }
-  if (input.items.empty()) {
-    file.fail(report.polygons == 0
-                  ? "whole file: none of its " + std::to_string(report.nonfinite_points) +
-                        " points is finite"
-                  : "whole file: none of its " + std::to_string(report.polygons) +
-                        " polygons has three distinct finite corners");
-  }
+  if (input.items.empty()) file.fail("whole file: " + reason_for_nothing(report));
   input.reports.push_back(std::move(report));
   return input;
 }
@@ -119,25 +128,18 @@ InputFile read_one(const std::filesystem::path& path, const std::string& type,
 }  // namespace
 
 InputFile read_input(const std::filesystem::path& path, const Progress& progress) {
-  return read_one(path, file_type(path), Mat4{1.0}, progress);
-}
-
-SceneInput read_scene(std::span<const std::filesystem::path> paths, const Progress& progress) {
-  if (paths.empty()) throw InvalidArgument("read_scene: paths must not be empty");
-  SceneInput input;
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    progress.at("read", static_cast<double>(i) / static_cast<double>(paths.size()));
-    InputFile file = read_input(paths[i], progress);
-    for (InputItem& item : file.items) {
-      if (item.cloud) {
-        input.scene.add(std::move(item.cloud), item.world_from_item);
-      } else {
-        input.scene.add(std::move(item.soup), item.world_from_item);
-      }
-    }
-    std::move(file.reports.begin(), file.reports.end(), std::back_inserter(input.reports));
+  const std::string type = file_type(path);
+  if (type != kListType) return read_one(path, Mat4{1.0}, progress);
+  const FileBytes file(path);
+  InputFile all;
+  for (const PlacedScan& scan : read_conf(file)) {
+    progress.check_stop();
+    if (file_type(scan.path) == kListType) file.fail("a list of scans must not name another list");
+    InputFile one = read_one(scan.path, scan.world_from_scan, progress);
+    std::move(one.items.begin(), one.items.end(), std::back_inserter(all.items));
+    std::move(one.reports.begin(), one.reports.end(), std::back_inserter(all.reports));
   }
-  return input;
+  return all;
 }
 
 }  // namespace rangezip

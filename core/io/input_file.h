@@ -45,7 +45,9 @@ struct InputFile {
 /// become triangles; vertices of a file without faces, and OBJ point elements, become points.
 /// Positions are stored in float about a local origin near the data, so large coordinates lose
 /// nothing.
-/// @throws IoError naming file, place and rule for anything that is not what it claims to be.
+/// @throws IoError naming file, place and rule for anything that is not what it claims to be, and
+///     if nothing usable is left of a file.
+/// @throws Cancelled if `progress` says so.
 [[nodiscard]] InputFile read_input(const std::filesystem::path& path,
                                    const Progress& progress = {});
 
@@ -57,6 +59,11 @@ struct SceneInput {
   Scene scene;
   std::vector<InputReport> reports;
 };
+
+/// All files as one scene, in order.
+/// @throws IoError as read_input(); also if all points and corners together are fewer than three,
+///     equal, or on one line (none farther from it than 1e-5 of the size of the whole).
+/// @throws InvalidArgument if there is no path.
 [[nodiscard]] SceneInput read_scene(std::span<const std::filesystem::path> paths,
                                     const Progress& progress = {});
 

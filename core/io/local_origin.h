@@ -10,9 +10,9 @@ namespace rangezip {
 /// Chooses the origin about which positions are stored as floats, from an even sample of them.
 ///
 /// The origin is the median of the sample per axis, so that a few strays do not pull it away,
-/// rounded to whole steps of a power of two: the size of the data, but at most 1. Data near zero
-/// thus keep the origin 0 and their own floats, and data moved by whole units, as between map
-/// grids, get the moved origin and the same local floats.
+/// rounded to whole steps of a power of two: about twice the size of the data, but at most 1. Data
+/// near zero thus keep the origin 0 and their own floats, and data moved by whole units, as between
+/// map grids, get the moved origin and the same local floats.
 class LocalOrigin {
  public:
   LocalOrigin();

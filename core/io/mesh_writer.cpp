@@ -1,12 +1,10 @@
-#include <algorithm>
 #include <array>
-#include <bit>
 #include <charconv>
-#include <cstring>
 #include <string_view>
 
 #include "core/base/error.h"
 #include "core/io/atomic_file.h"
+#include "core/io/byte_order.h"
 #include "core/io/file_bytes.h"
 #include "core/io/mesh_file.h"
 #include "core/io/text_fields.h"
@@ -36,10 +34,7 @@ class MeshOutput {
   }
   template <class T>
   MeshOutput& bytes(T value) {
-    auto stored = std::bit_cast<std::array<char, sizeof(T)>>(value);
-    if constexpr (std::endian::native == std::endian::big) {
-      std::reverse(stored.begin(), stored.end());
-    }
+    const auto stored = little_bytes(value);
     return text({stored.data(), stored.size()});
   }
   void commit() { file_.commit(); }

@@ -1,10 +1,9 @@
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <string_view>
 
+#include "core/io/byte_order.h"
 #include "core/io/format_readers.h"
 #include "core/io/ply_header.h"
 #include "core/io/text_fields.h"
@@ -229,34 +228,26 @@ class AsciiReader : private PlyReader {
   TextLines lines_;
 };
 
-template <class T>
-T load(const char* at, bool is_swapped) {
-  std::array<char, sizeof(T)> bytes;
-  std::memcpy(bytes.data(), at, sizeof(T));
-  if (is_swapped) std::reverse(bytes.begin(), bytes.end());
-  return std::bit_cast<T>(bytes);
-}
-
 double load_number(PlyType type, const char* at, bool is_swapped) {
   switch (type) {
     case PlyType::int8:
-      return load<std::int8_t>(at, is_swapped);
+      return load_bytes<std::int8_t>(at, is_swapped);
     case PlyType::uint8:
-      return load<std::uint8_t>(at, is_swapped);
+      return load_bytes<std::uint8_t>(at, is_swapped);
     case PlyType::int16:
-      return load<std::int16_t>(at, is_swapped);
+      return load_bytes<std::int16_t>(at, is_swapped);
     case PlyType::uint16:
-      return load<std::uint16_t>(at, is_swapped);
+      return load_bytes<std::uint16_t>(at, is_swapped);
     case PlyType::int32:
-      return load<std::int32_t>(at, is_swapped);
+      return load_bytes<std::int32_t>(at, is_swapped);
     case PlyType::uint32:
-      return load<std::uint32_t>(at, is_swapped);
+      return load_bytes<std::uint32_t>(at, is_swapped);
     case PlyType::float32:
-      return static_cast<double>(load<float>(at, is_swapped));
+      return static_cast<double>(load_bytes<float>(at, is_swapped));
     case PlyType::float64:
       break;
   }
-  return load<double>(at, is_swapped);
+  return load_bytes<double>(at, is_swapped);
 }
 
 /// Instances follow each other without gaps.
@@ -266,8 +257,7 @@ class BinaryReader : private PlyReader {
       : PlyReader(file, header, geometry),
         at_(file.bytes().data() + header.size),
         end_(file.bytes().data() + file.bytes().size()),
-        is_swapped_((header.encoding == PlyEncoding::little_endian) !=
-                    (std::endian::native == std::endian::little)) {}
+        is_swapped_((header.encoding == PlyEncoding::little_endian) != kIsLittleEndian) {}
 
   void read(const Progress& progress) {
     for (const PlyElement& element : header_.elements) {
@@ -356,9 +346,9 @@ class BinaryReader : private PlyReader {
                    const std::array<std::size_t, 3>& offset) {
     for (std::size_t i = 0; i < block.size(); i += stride) {
       const char* const vertex = block.data() + i;
-      geometry_.positions.add({load<T>(vertex + offset[0], false),
-                               load<T>(vertex + offset[1], false),
-                               load<T>(vertex + offset[2], false)});
+      geometry_.positions.add({load_bytes<T>(vertex + offset[0], false),
+                               load_bytes<T>(vertex + offset[1], false),
+                               load_bytes<T>(vertex + offset[2], false)});
     }
   }
 

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+
+namespace rangezip {
+
+/// 64-bit FNV-1a [Fowler, Noll, Vo 1991]: tells whether an input is still the same file. Not
+/// proof against anyone who wants two files to look alike. About 1 GB/s.
+[[nodiscard]] std::uint64_t hash_bytes(std::string_view bytes);
+
+/// hash_bytes() of a file as it lies on the disk; a .gz is not unpacked.
+/// @throws IoError if the file is missing, a folder, unreadable or empty.
+[[nodiscard]] std::uint64_t hash_file(const std::filesystem::path& path);
+
+}  // namespace rangezip
