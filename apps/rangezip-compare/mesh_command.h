@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <iosfwd>
+#include <optional>
+
+namespace rangezip::compare {
+
+struct MeshCommand {
+  std::filesystem::path mesh;
+  std::optional<std::filesystem::path> truth;  ///< a mesh to measure against
+  std::optional<std::filesystem::path> cloud;  ///< points that the mesh should pass through
+  std::optional<std::filesystem::path> json;   ///< where to write the figures as JSON
+  std::size_t samples = 200'000;               ///< of each surface, for the distances
+  std::uint64_t seed = 1;
+};
+
+/// Judges one mesh, prints the figures to `out`, and writes them as JSON if asked. Distances are
+/// given in % of the diagonal of the truth's bounding box, else the cloud's.
+/// @return true if the mesh is clean: manifold, oriented, without degenerate faces and
+///     self-intersections
+/// @throws IoError if a file cannot be read or written; TopologyError if a mesh has indices out of
+///     range.
+bool run_mesh_command(const MeshCommand& command, std::ostream& out);
+
+}  // namespace rangezip::compare
