@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "core/mesh/triangle_mesh.h"
+#include "tests/support/shapes.h"
 
 /// Meshes with closed-form answers, for the judges' own tests.
 namespace rangezip::test {
@@ -45,22 +46,9 @@ inline TriangleMesh strip(std::uint32_t columns) {
   return mesh;
 }
 
-/// Deterministic numbers in [-1, 1) [Steele, Lea, Flood 2014].
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-
-  std::uint64_t bits() {
-    std::uint64_t z = state_ += 0x9e3779b97f4a7c15U;
-    z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-    return z ^ (z >> 31U);
-  }
-  double number() { return static_cast<double>(bits() >> 11U) * 0x1.0p-52 - 1.0; }
-  Vec3 vector() { return {number(), number(), number()}; }
-
- private:
-  std::uint64_t state_;
-};
+/// A point in the cube of side 2 about the origin.
+inline Vec3 random_point(shapes::Random& random) {
+  return {random.between(-1.0, 1.0), random.between(-1.0, 1.0), random.between(-1.0, 1.0)};
+}
 
 }  // namespace rangezip::test

@@ -26,12 +26,13 @@ double distance_by_exhaustion(const Vec3& point, const TriangleMesh& mesh) {
 }
 
 /// Triangles all over the unit cube, every third one a sliver of height 1e-9.
-TriangleMesh random_triangles(test::Random& random, std::size_t count) {
+TriangleMesh random_triangles(shapes::Random& random, std::size_t count) {
   TriangleMesh mesh;
   for (std::size_t i = 0; i < count; ++i) {
-    const Vec3 a = random.vector();
-    const Vec3 b = random.vector();
-    const Vec3 c = i % 3 == 0 ? 0.5 * (a + b) + 1e-9 * random.vector() : random.vector();
+    const Vec3 a = test::random_point(random);
+    const Vec3 b = test::random_point(random);
+    const Vec3 c =
+        i % 3 == 0 ? 0.5 * (a + b) + 1e-9 * test::random_point(random) : test::random_point(random);
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     mesh.positions.insert(mesh.positions.end(), {a, b, c});
     mesh.triangles.push_back({first, first + 1, first + 2});
@@ -77,11 +78,11 @@ TEST_CASE("the way back has the mean square that an integral gives") {
 TEST_CASE("nearest_faces finds what trying all faces finds, slivers included") {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     CAPTURE(seed);
-    test::Random random(seed);
+    shapes::Random random(seed);
     const TriangleMesh mesh = random_triangles(random, 60);
     std::vector<Vec3> points;
     for (int i = 0; i < 200; ++i)
-      points.push_back(1.5 * random.vector());
+      points.push_back(1.5 * test::random_point(random));
     const std::vector<NearestFace> nearest = nearest_faces(points, mesh);
     for (std::size_t i = 0; i < points.size(); ++i) {
       // The tree compares points that it has constructed with rounding, on slivers with some 1e9

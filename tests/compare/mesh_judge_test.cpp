@@ -139,10 +139,10 @@ TEST_CASE("CGAL and report_mesh agree on random sets of triangles") {
   constexpr std::uint64_t kSeeds = 300;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     CAPTURE(seed);
-    test::Random random(seed);
+    shapes::Random random(seed);
     TriangleMesh mesh;
     for (int i = 0; i < 9; ++i)
-      mesh.positions.push_back(random.vector());
+      mesh.positions.push_back(test::random_point(random));
     const std::size_t faces = 2 + seed % 4;
     while (mesh.triangles.size() < faces) {
       const auto corner = [&] { return static_cast<std::uint32_t>(random.bits() % 9); };
