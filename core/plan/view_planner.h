@@ -30,9 +30,11 @@ struct ViewPlan {
 /// Chooses parallel views that together see the cloud well, before any meshing: each candidate
 /// draws the subset into a small z-buffer; greedy maximum of the summed sampling quality, where
 /// q(view, point) = (cos - cos 70) / (1 - cos 70) for a visible point, gain = q plus a bonus if not
-/// yet seen, 0.35 of the improvement else. O(candidates * subset).
+/// yet seen, 0.35 of the improvement else; once such a view adds nothing new, those that do.
+/// Far outliers are left out. O(candidates * subset).
 /// @param points the cloud, or area samples of polygons
-/// @param pixel_size of the scans to come; the planner scales it to the subset's density
+/// @param pixel_size of the scans to come; the planner's own is coarser where the subset is
+/// @throws InvalidArgument if there are no points, or pixel_size or an option is out of range.
 [[nodiscard]] ViewPlan plan_views(Rasterizer& rasterizer, std::span<const Vec3> points,
                                   double pixel_size, const ViewPlanOptions& options = {},
                                   const Progress& progress = {});

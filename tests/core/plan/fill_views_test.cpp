@@ -7,14 +7,19 @@
 namespace rangezip {
 namespace {
 
-/// The sphere without the faces whose middle lies within a cone about any of `directions`.
-TriangleMesh punched_sphere(const std::vector<Vec3>& directions, double cone_cosine) {
+struct Hole {
+  Vec3 direction;
+  double cosine = 1.0;  ///< of half its opening angle
+};
+
+/// The sphere without the faces whose middle lies in a hole.
+TriangleMesh punched_sphere(const std::vector<Hole>& holes) {
   TriangleMesh mesh = shapes::to_mesh(shapes::sphere());
   std::erase_if(mesh.triangles, [&](const Triangle& t) {
     const Vec3 middle =
         glm::normalize(mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]);
-    return std::any_of(directions.begin(), directions.end(), [&](const Vec3& direction) {
-      return glm::dot(middle, direction) > cone_cosine;
+    return std::any_of(holes.begin(), holes.end(), [&](const Hole& hole) {
+      return glm::dot(middle, hole.direction) > hole.cosine;
     });
   });
   return mesh;
@@ -26,7 +31,7 @@ TEST_CASE("plan_fill_views look into a hole") {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     CAPTURE(seed);
     const Vec3 hole = shapes::Random(seed).direction();
-    const TriangleMesh mesh = punched_sphere({hole}, 0.95);
+    const TriangleMesh mesh = punched_sphere({{hole, 0.95}});
     const std::vector<Vec3> views = plan_fill_views(mesh, 0.5, 6);
     REQUIRE_FALSE(views.empty());
     CHECK(glm::length(views[0]) == Approx(1.0));
@@ -37,14 +42,8 @@ TEST_CASE("plan_fill_views look into a hole") {
 
 TEST_CASE("plan_fill_views look into every hole, the longest first") {
   const Vec3 large{1, 0, 0};
-  TriangleMesh mesh = punched_sphere({large}, 0.9);
-  for (const Vec3& small : {Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, -1}}) {
-    const TriangleMesh punched = punched_sphere({small}, 0.97);
-    std::erase_if(mesh.triangles, [&](const Triangle& t) {
-      return std::find(punched.triangles.begin(), punched.triangles.end(), t) ==
-             punched.triangles.end();
-    });
-  }
+  const TriangleMesh mesh = punched_sphere(
+      {{large, 0.9}, {Vec3{-1, 0, 0}, 0.97}, {Vec3{0, 1, 0}, 0.97}, {Vec3{0, 0, -1}, 0.97}});
   const std::vector<Vec3> views = plan_fill_views(mesh, 0.5, 6);
   REQUIRE(views.size() >= 4);
   CHECK(glm::dot(views[0], large) > 0.96);
@@ -74,7 +73,7 @@ TEST_CASE("plan_fill_views see a slit around an edge from both sides") {
 TEST_CASE("plan_fill_views leave closed meshes, short loops and used directions alone") {
   CHECK(plan_fill_views(shapes::to_mesh(shapes::sphere()), 0.01, 6).empty());
   CHECK(plan_fill_views(TriangleMesh{}, 0.01, 6).empty());
-  const TriangleMesh mesh = punched_sphere({Vec3{0, 0, 1}}, 0.95);
+  const TriangleMesh mesh = punched_sphere({{Vec3{0, 0, 1}, 0.95}});
   const double loop = report_mesh(mesh).longest_loop;
   CHECK(plan_fill_views(mesh, 1.001 * loop, 6).empty());
   CHECK_FALSE(plan_fill_views(mesh, 0.999 * loop, 6).empty());
