@@ -16,10 +16,10 @@ enum class StitchMethod {
 
 struct StitchOptions {
   StitchMethod method = StitchMethod::clear_and_fill;
-  double band = 1.0;        ///< half width, in pixel sides times stretch_of(slope), of the depth
-                            ///< band in which old surface counts as covered by the patch
-  double clearance = 0.4;   ///< pixels; old vertices closer to the patch go (against slivers)
-  double max_gap = 3.5;     ///< pixels; longest edge of a strip triangle in the image plane
+  double band = 1.0;       ///< half width, in pixel sides times stretch_of(slope), of the depth
+                           ///< band in which old surface counts as covered by the patch
+  double clearance = 0.4;  ///< pixels; old vertices closer to the patch go (against slivers)
+  double max_gap = 3.5;    ///< pixels; longest edge of a strip triangle in the image plane
   double min_strip_cosine = 0.139;  ///< of the angle to the line of sight (82 degrees)
   double collapse_ratio = 0.45;  ///< zipper: seam edges shorter than this share of a pixel side are
                                  ///< collapsed; 0 turns it off
@@ -29,9 +29,9 @@ struct StitchOptions {
 
 /// What happened, in numbers that a test can check and a user can read.
 struct StitchReport {
-  std::size_t removed_faces = 0;      ///< of the mesh, replaced by the patch
-  std::size_t patch_faces = 0;        ///< added
-  std::size_t strip_faces = 0;        ///< added between patch and mesh
+  std::size_t removed_faces = 0;  ///< of the mesh, replaced by the patch
+  std::size_t patch_faces = 0;    ///< added
+  std::size_t strip_faces = 0;    ///< added between patch and mesh
   std::size_t rejected_strip_faces = 0;
   std::size_t inserted_vertices = 0;  ///< zipper: of the patch's boundary, into the mesh
   std::size_t inserted_segments = 0;  ///< zipper: boundary edges found or made in the mesh
@@ -39,9 +39,9 @@ struct StitchReport {
   std::size_t skipped_segments = 0;   ///< zipper: that leave the sheet
   std::size_t flipped_edges = 0;
   std::size_t collapsed_edges = 0;
-  std::size_t opened_fans = 0;        ///< faces removed because they touched in one vertex only
+  std::size_t opened_fans = 0;  ///< faces removed because they touched in one vertex only
   std::size_t dropped_components = 0;
-  std::size_t dropped_faces = 0;      ///< of those components
+  std::size_t dropped_faces = 0;  ///< of those components
 };
 
 struct StitchResult {
