@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -13,7 +12,7 @@ namespace rangezip {
 
 /// The visibility vote that a scan uses; computed once per session for each distinct value.
 struct VoteOptions {
-  double pixel_size = 0.0;  ///< model units
+  double pixel_size = 0.0;  ///< model units, of the scans that use the vote; must be positive
   int directions = 40;
 
   friend bool operator==(const VoteOptions&, const VoteOptions&) = default;
@@ -23,15 +22,15 @@ struct VoteOptions {
 struct AddScan {
   ScanRequest scan;
   StitchOptions stitch;
-  std::optional<VoteOptions> vote;
+  std::optional<VoteOptions> vote;  ///< absent: no visibility vote
 };
 
-/// Deletes the faces seen inside a lasso (the red one).
+/// Deletes the faces seen inside a lasso (the red one) [Kobbelt, Botsch 2000, 3].
 struct EraseRegion {
-  Camera camera;
+  Camera camera;  ///< its depth planes are fitted to the mesh
   Extent extent{1024, 1024};
-  std::vector<Vec2> region;   ///< window coordinates
-  bool visible_only = true;   ///< false: also what lies behind
+  std::vector<Vec2> region;  ///< window coordinates; empty: all
+  bool visible_only = true;  ///< false: also what lies behind
 };
 
 /// Laplacian smoothing of all vertices that are not on the boundary [Kobbelt, Botsch 2000, Fig. 9].
@@ -42,16 +41,16 @@ struct SmoothMesh {
 
 /// Closes boundary loops up to a perimeter.
 struct FillMeshHoles {
-  double pixel_size = 0.0;     ///< target edge length, model units
-  double max_perimeter = 0.0;  ///< model units
+  double pixel_size = 0.0;  ///< target edge length, model units; 0: the mesh's mean edge length
+  double max_perimeter = std::numeric_limits<double>::infinity();  ///< model units
 };
 
-/// The finish; projects onto the scene's points.
+/// The finish; projects onto the evidence_points() of the scene.
 struct FinishMesh {
-  FinishOptions options;
+  FinishOptions options;  ///< pixel_size 0: the mesh's mean edge length
 };
 
-/// Takes back the last `count` commands (for hand-written sessions; undo() otherwise).
+/// Takes back the last `count` commands (for hand-written sessions; Session::undo() otherwise).
 struct UndoSteps {
   int count = 1;
 };

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/rangezip/console.h"
+
+namespace rangezip::app {
+
+/// What every command may use while it runs.
+struct Context {
+  std::stop_token stop;
+};
+
+/// The command that the command line names, ready to run; set while it is parsed.
+using Action = std::function<void(const Context&)>;
+
+/// Options that several commands share.
+struct CommonOptions {
+  std::string backend = "cpu";
+  int threads = 0;
+  bool quiet = false;
+};
+void add_common_options(CLI::App& command, CommonOptions& options);
+
+/// Each adds one command with its options and help; when it is on the command line, `action`
+/// becomes its run.
+void add_mesh_command(CLI::App& app, Action& action);
+void add_scan_command(CLI::App& app, Action& action);
+void add_render_command(CLI::App& app, Action& action);
+void add_play_command(CLI::App& app, Action& action);
+void add_info_command(CLI::App& app, Action& action);
+
+}  // namespace rangezip::app

@@ -1,0 +1,18 @@
+#include "apps/rangezip/backend.h"
+#include "apps/rangezip/commands.h"
+
+namespace rangezip::app {
+
+void add_common_options(CLI::App& command, CommonOptions& options) {
+  command.add_option("--backend", options.backend, "Rasterizer to draw with: " + known_backends())
+      ->envname("RANGEZIP_BACKEND")
+      ->capture_default_str();
+  command
+      .add_option("--threads", options.threads,
+                  "Threads to use, 0: all of the machine; the result is the same for any number")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command.add_flag("-q,--quiet", options.quiet, "No progress and no summary; errors only");
+}
+
+}  // namespace rangezip::app

@@ -1,0 +1,90 @@
+// rangezip: clean triangle meshes from raw 3D data by virtual range scanning.
+
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "apps/rangezip/commands.h"
+#include "apps/rangezip/exit_code.h"
+#include "apps/rangezip/interrupt.h"
+
+namespace rangezip::app {
+
+namespace {
+
+constexpr const char* kExitCodes =
+    "Exit codes:\n"
+    "  0  done\n"
+    "  1  wrong option or argument\n"
+    "  2  an input is missing or not what it claims to be\n"
+    "  3  an output cannot be written\n"
+    "  4  the backend is unknown or failed\n"
+    "  5  a mesh is not manifold or crosses itself\n"
+    "  6  anything else, such as memory that ran out\n"
+    "  130  interrupted (Ctrl-C); no file is left half written";
+
+int fail(ExitCode code, const char* text) {
+  std::fprintf(stderr, "rangezip: %s\n", text);
+  return static_cast<int>(code);
+}
+
+int run(const Action& action) {
+  const InterruptWatch interrupts;
+  try {
+    action({.stop = interrupts.token()});
+    return static_cast<int>(ExitCode::ok);
+  } catch (const UsageError& error) {
+    return fail(ExitCode::usage, error.what());
+  } catch (const InvalidArgument& error) {
+    return fail(ExitCode::usage, error.what());
+  } catch (const OutputError& error) {
+    return fail(ExitCode::bad_output, error.what());
+  } catch (const IoError& error) {
+    return fail(ExitCode::bad_input, error.what());
+  } catch (const BackendError& error) {
+    return fail(ExitCode::backend, error.what());
+  } catch (const NotVerified& error) {
+    return fail(ExitCode::not_verified, error.what());
+  } catch (const TopologyError& error) {
+    return fail(ExitCode::not_verified, error.what());
+  } catch (const Cancelled&) {
+    return fail(ExitCode::cancelled, "interrupted");
+  } catch (const std::bad_alloc&) {
+    return fail(ExitCode::internal, "not enough memory");
+  } catch (const std::exception& error) {
+    return fail(ExitCode::internal, error.what());
+  }
+}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App app{"Clean triangle meshes from raw 3D data by virtual range scanning", "rangezip"};
+  app.set_version_flag("--version", "rangezip " RANGEZIP_VERSION);
+  app.require_subcommand(1);
+  app.footer(std::string("'rangezip COMMAND --help' lists the options of a command.\n\n") +
+             kExitCodes);
+  Action action;
+  add_render_command(app, action);
+  add_info_command(app, action);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {  // --help, --version
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    app.exit(error);
+    return static_cast<int>(ExitCode::usage);
+  }
+  return run(action);
+}
+
+}  // namespace
+
+}  // namespace rangezip::app
+
+int main(int argc, char** argv) {
+  try {
+    return rangezip::app::parse_and_run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "rangezip: %s\n", error.what());
+    return static_cast<int>(rangezip::app::ExitCode::internal);
+  }
+}

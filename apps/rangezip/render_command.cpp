@@ -1,0 +1,118 @@
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "apps/rangezip/backend.h"
+#include "apps/rangezip/commands.h"
+#include "apps/rangezip/outputs.h"
+#include "apps/rangezip/values.h"
+#include "core/base/parallel.h"
+#include "core/io/image_file.h"
+#include "core/io/input_file.h"
+#include "core/io/mesh_file.h"
+#include "core/render/picture.h"
+
+namespace rangezip::app {
+
+namespace {
+
+struct RenderOptions {
+  std::vector<std::filesystem::path> files;
+  std::filesystem::path output;
+  Vec3 direction{0.3, 0.25, 1.0};
+  std::optional<Vec3> up;
+  std::optional<double> perspective;  // degrees
+  bool only_points = false;
+  PictureOptions picture;
+  CommonOptions common;
+};
+
+void append_mesh(TriangleMesh& onto, TriangleMesh mesh) {
+  const auto offset = static_cast<std::uint32_t>(onto.positions.size());
+  onto.positions.insert(onto.positions.end(), mesh.positions.begin(), mesh.positions.end());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    onto.triangles.push_back({a + offset, b + offset, c + offset});
+  }
+}
+
+void append_cloud(std::vector<Vec3>& onto, const InputItem& item) {
+  for (const Vec3f& position : item.cloud->positions) {
+    onto.emplace_back(item.world_from_item * Vec4(Vec3(position), 1.0));
+  }
+}
+
+/// Points as the readers of clouds give them; faces with the connectivity that their file has.
+PictureContent read_content(const RenderOptions& options, const Progress& progress) {
+  PictureContent content;
+  for (const std::filesystem::path& path : options.files) {
+    const InputFile file = read_input(path, progress);
+    bool has_faces = false;
+    for (const InputItem& item : file.items) {
+      if (item.cloud) append_cloud(content.points, item);
+      has_faces = has_faces || item.soup != nullptr;
+    }
+    if (has_faces) append_mesh(content.mesh, read_mesh(path));
+  }
+  if (options.only_points) {
+    const auto& vertices = content.mesh.positions;
+    content.points.insert(content.points.end(), vertices.begin(), vertices.end());
+    content.mesh = {};
+  }
+  return content;
+}
+
+void render(const RenderOptions& options, const Context& context) {
+  const auto rasterizer = make_rasterizer(options.common.backend);
+  Outputs outputs;
+  outputs.add("-o", options.output, {"png"});
+  Console console(options.common.quiet, context.stop);
+  Progress progress = console.start_task("render", 0.0, "");
+  progress.report = nullptr;  // over before a bar could be read
+
+  const PictureContent content = read_content(options, progress);
+  const Camera camera =
+      frame_picture(bounds_of(content), options.direction, options.picture.extent, options.up);
+  const Picture picture = draw_picture(*rasterizer, content, camera, options.picture);
+  progress.check_stop();
+  write_output([&] { write_rgb_png(options.output, picture); });
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, Action& action) {
+  auto options = std::make_shared<RenderOptions>();
+  CLI::App& command =
+      *app.add_subcommand("render", "Draws meshes and point clouds into a shaded picture (PNG)");
+  command.add_option("FILE", options->files, "Meshes and clouds, of any type that 'mesh' reads")
+      ->required();
+  command.add_option("-o,--output", options->output, "The picture to write")
+      ->required()
+      ->type_name("F.png");
+  add_parsed(command, "--direction", options->direction, parse_vector,
+             "From the object toward the viewer [0.3,0.25,1]", "X,Y,Z");
+  add_parsed(command, "--up", options->up, parse_vector,
+             "What points upwards in the picture [y, or x if looking along y]", "X,Y,Z");
+  add_parsed(command, "--size", options->picture.extent, parse_extent, "In pixels [1200,900]",
+             "W,H");
+  command.add_flag("--edges", options->picture.edges, "Draw the edges of all faces");
+  command.add_flag("--boundary", options->picture.boundary,
+                   "Mark edges that belong to one face only, in red");
+  command.add_flag("--flat", options->picture.flat,
+                   "Shade every face with its own normal instead of smoothly");
+  command.add_flag("--points", options->only_points, "Draw vertices instead of faces");
+  command
+      .add_option("--point-size", options->picture.point_size, "Size of a drawn point, in pixels")
+      ->check(CLI::Range(1, 60))
+      ->capture_default_str();
+  add_common_options(command, options->common);
+  command.footer(
+      "Faces seen from behind are orange. The camera looks from --direction at the middle "
+      "of all files and shows them whole.");
+  command.callback([options, &action] {
+    action = [options](const Context& context) {
+      run_with_threads(options->common.threads, [&] { render(*options, context); });
+    };
+  });
+}
+
+}  // namespace rangezip::app

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "core/base/geometry.h"
+#include "core/base/grid.h"
+
+namespace rangezip::app {
+
+/// Values of options as they are typed. All throw CLI::ValidationError naming the rule and the
+/// text.
+[[nodiscard]] double parse_number(const std::string& text);
+[[nodiscard]] Vec3 parse_vector(const std::string& text);                ///< "x,y,z", not all 0
+[[nodiscard]] Extent parse_extent(const std::string& text);              ///< "w,h", 1..8192
+[[nodiscard]] std::vector<Vec2> parse_polygon(const std::string& text);  ///< "x,y x,y x,y ..."
+[[nodiscard]] Plane parse_plane(const std::string& text);                ///< "nx,ny,nz,d"
+
+/// Adds an option whose text is parsed by `parse` and stored in `target`.
+template <class Target, class Parse>
+CLI::Option* add_parsed(CLI::App& command, const std::string& name, Target& target,
+                        const Parse& parse, const std::string& text, const std::string& form) {
+  return command
+      .add_option_function<std::string>(
+          name, [&target, parse](const std::string& value) { target = parse(value); }, text)
+      ->type_name(form);
+}
+
+/// A number greater than 0.
+[[nodiscard]] double parse_positive(const std::string& text);
+/// A number of at least 0.
+[[nodiscard]] double parse_not_negative(const std::string& text);
+
+}  // namespace rangezip::app

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/base/grid.h"
+#include "core/mesh/triangle_mesh.h"
+#include "core/raster/rasterizer.h"
+#include "core/view/camera.h"
+
+namespace rangezip {
+
+/// Red, green and blue, 8 bits each, as a screen shows them (sRGB).
+using Picture = Grid<std::array<std::uint8_t, 3>>;
+
+/// What is in a picture: faces, and points beside them. World coordinates.
+struct PictureContent {
+  TriangleMesh mesh;
+  std::vector<Vec3> points;
+};
+
+struct PictureOptions {
+  Extent extent{1200, 900};
+  int supersampling = 2;  ///< samples a pixel along each axis, 1..4
+  bool flat = false;      ///< every face with its own normal instead of smooth ones
+  bool edges = false;     ///< draws the edges of all faces
+  bool boundary = false;  ///< marks edges that belong to one face only, in a strong colour
+  int point_size = 2;     ///< pixels
+};
+
+/// Box around all that the content shows: faces, and points.
+[[nodiscard]] Box bounds_of(const PictureContent& content);
+
+/// The parallel camera from `toward_viewer` that shows all of `bounds` in the extent with a small
+/// margin, depth planes fitted. `up` defaults as in frame_box().
+/// @throws InvalidArgument as frame_box(), or if the extent is empty.
+[[nodiscard]] Camera frame_picture(const Box& bounds, const Vec3& toward_viewer, Extent extent,
+                                   const std::optional<Vec3>& up = std::nullopt);
+
+/// Draws the content with the given rasterizer and shades it: lights beside the viewer, hollows
+/// darker, faces seen from behind in another hue, so that inverted ones show; points darker where
+/// they lie behind their neighbours. White background. Normals are smooth across edges flatter
+/// than about 35 degrees. The depth planes of `camera` are fitted to the content.
+/// O(faces + pixels * supersampling^2).
+/// @throws InvalidArgument for an option out of range, a camera that View refuses, or an empty
+///     content.
+[[nodiscard]] Picture draw_picture(Rasterizer& rasterizer, const PictureContent& content,
+                                   const Camera& camera, const PictureOptions& options = {});
+
+}  // namespace rangezip
