@@ -73,7 +73,8 @@ Expansion<2> difference(double a, double b) {
 template <std::size_t kA, std::size_t kB>
 Expansion<kA + kB> sum(const Expansion<kA>& a, const Expansion<kB>& b) {
   Expansion<kA + kB> result;
-  for (std::size_t i = 0; i < a.size; ++i) result.push(a.terms[i]);
+  for (std::size_t i = 0; i < a.size; ++i)
+    result.push(a.terms[i]);
   for (std::size_t j = 0; j < b.size; ++j) {
     double carry = b.terms[j];
     const std::size_t count = result.size;
@@ -112,7 +113,8 @@ Expansion<2 * kA * kB> product(const Expansion<kA>& a, const Expansion<kB>& b) {
 
 template <std::size_t kA>
 Expansion<kA> negated(Expansion<kA> a) {
-  for (std::size_t i = 0; i < a.size; ++i) a.terms[i] = -a.terms[i];
+  for (std::size_t i = 0; i < a.size; ++i)
+    a.terms[i] = -a.terms[i];
   return a;
 }
 

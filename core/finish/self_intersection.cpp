@@ -112,13 +112,16 @@ class Triangles {
  public:
   explicit Triangles(const TriangleMesh& mesh)
       : mesh_(mesh), boxes_(mesh.triangles.size()), degenerate_(mesh.triangles.size()) {
-    parallel_for(mesh.triangles.size(), kTrianglesPerBlock, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        for (const std::uint32_t corner : mesh.triangles[i]) boxes_[i].add(mesh.positions[corner]);
-        degenerate_[i] = is_degenerate(mesh, mesh.triangles[i]) ? 1 : 0;
-      }
-    });
-    for (const Box& box : boxes_) bounds_.add(box);
+    parallel_for(mesh.triangles.size(), kTrianglesPerBlock,
+                 [&](std::size_t begin, std::size_t end) {
+                   for (std::size_t i = begin; i < end; ++i) {
+                     for (const std::uint32_t corner : mesh.triangles[i])
+                       boxes_[i].add(mesh.positions[corner]);
+                     degenerate_[i] = is_degenerate(mesh, mesh.triangles[i]) ? 1 : 0;
+                   }
+                 });
+    for (const Box& box : boxes_)
+      bounds_.add(box);
   }
 
   [[nodiscard]] std::size_t size() const { return boxes_.size(); }
@@ -171,7 +174,8 @@ CellLists sort_into_cells(const Triangles& triangles, const CellGrid& grid,
     entered.push_back(i);
     for_each_entry(i, [&](std::size_t cell) { ++lists.starts[cell + 1]; });
   }
-  for (std::size_t c = 1; c < lists.starts.size(); ++c) lists.starts[c] += lists.starts[c - 1];
+  for (std::size_t c = 1; c < lists.starts.size(); ++c)
+    lists.starts[c] += lists.starts[c - 1];
   lists.entries.resize(lists.starts.back());
   for (const std::uint32_t i : entered) {
     for_each_entry(i, [&](std::size_t cell) { lists.entries[lists.starts[cell]++] = i; });
@@ -202,7 +206,8 @@ void collect_cell(const Triangles& triangles, const CellGrid& grid,
 }
 
 void append_blocks(std::vector<std::vector<Pair>>& blocks, std::vector<Pair>& pairs) {
-  for (const std::vector<Pair>& block : blocks) pairs.insert(pairs.end(), block.begin(), block.end());
+  for (const std::vector<Pair>& block : blocks)
+    pairs.insert(pairs.end(), block.begin(), block.end());
 }
 
 void collect_cells(const Triangles& triangles, const CellGrid& grid, const CellLists& lists,
@@ -223,7 +228,8 @@ void collect_large(const Triangles& triangles, std::span<const std::uint32_t> la
                    std::span<const std::uint8_t> changed, std::vector<Pair>& pairs) {
   if (large.empty()) return;
   std::vector<std::uint8_t> is_large(triangles.size(), 0);
-  for (const std::uint32_t i : large) is_large[i] = 1;
+  for (const std::uint32_t i : large)
+    is_large[i] = 1;
   std::vector<std::vector<Pair>> blocks(large.size());
   parallel_for(large.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
@@ -267,13 +273,16 @@ std::vector<Pair> find_pairs(const TriangleMesh& mesh, std::span<const std::uint
 
 }  // namespace
 
-std::vector<Pair> self_intersections(const TriangleMesh& mesh) { return find_pairs(mesh, {}); }
+std::vector<Pair> self_intersections(const TriangleMesh& mesh) {
+  return find_pairs(mesh, {});
+}
 
 std::vector<Pair> self_intersections(const TriangleMesh& mesh,
                                      std::span<const std::uint32_t> changed) {
   if (changed.empty()) return {};
   std::vector<std::uint8_t> flags(mesh.triangles.size(), 0);
-  for (const std::uint32_t i : changed) flags[i] = 1;
+  for (const std::uint32_t i : changed)
+    flags[i] = 1;
   return find_pairs(mesh, flags);
 }
 

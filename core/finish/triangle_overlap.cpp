@@ -21,7 +21,9 @@ int side_of(const Corners& plane, const Vec3& point) {
 }
 
 /// Drops the coordinate axis: the other two in cyclic order.
-Vec2 dropped(const Vec3& p, int axis) { return {p[(axis + 1) % 3], p[(axis + 2) % 3]}; }
+Vec2 dropped(const Vec3& p, int axis) {
+  return {p[(axis + 1) % 3], p[(axis + 2) % 3]};
+}
 
 /// The axis to drop so that a triangle keeps an area: the largest component of its normal, or the
 /// next one where rounding hid that it is exactly zero.
