@@ -9,8 +9,8 @@ struct FillHolesOptions {
   int min_neighbours = 5;  ///< of eight, that must have a sample for a pixel to be filled
   int rounds = 2;          ///< a round fills what the one before made fillable
   double max_step = 2.1;   ///< pixel sides; of the sorted neighbours only the nearest run without a
-                           ///< larger step is averaged (at least four), so a hole at a silhouette
-                           ///< is filled on the front sheet
+                           ///< larger step is averaged (at least four, or min_neighbours if that
+                           ///< is less), so a hole at a silhouette is filled on the front sheet
 };
 
 struct FillHolesResult {

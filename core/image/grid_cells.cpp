@@ -48,8 +48,7 @@ class TriangleRule {
 };
 
 /// The cell's diagonal and the triangles that its active corners allow.
-std::uint8_t possible_triangles(const RangeImage& image, const Grid<std::uint8_t>& active,
-                                Pixel cell) {
+std::uint8_t possible_triangles(const RangeImage& image, const Mask& active, Pixel cell) {
   const std::array<Pixel, 4> corners{
       {cell, {cell.x + 1, cell.y}, {cell.x + 1, cell.y + 1}, {cell.x, cell.y + 1}}};
   int count = 0;
@@ -80,8 +79,8 @@ std::uint8_t possible_triangles(const RangeImage& image, const Grid<std::uint8_t
                                    kUpperTriangle);
 }
 
-std::uint8_t triangles_of(const RangeImage& image, const Grid<std::uint8_t>& active,
-                          const TriangleRule& rule, Pixel cell) {
+std::uint8_t triangles_of(const RangeImage& image, const Mask& active, const TriangleRule& rule,
+                          Pixel cell) {
   const std::uint8_t possible = possible_triangles(image, active, cell);
   unsigned bits = 0;
   for (const std::uint8_t which : {kLowerTriangle, kUpperTriangle}) {
@@ -111,7 +110,7 @@ Vec3 eye_position(const RangeImage& image, Pixel pixel) {
           (pixel.y + 0.5 - 0.5 * image.extent().height) * scale, -depth};
 }
 
-GridCells build_grid_cells(const RangeImage& image, const Grid<std::uint8_t>& active,
+GridCells build_grid_cells(const RangeImage& image, const Mask& active,
                            const GridCellOptions& options) {
   const TriangleRule rule(image, options);
   GridCells cells(image.extent(), 0);

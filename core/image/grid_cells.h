@@ -28,7 +28,7 @@ inline constexpr std::uint8_t kFallingDiagonal = 4;  ///< the cell is cut from b
 /// Joins the samples of neighbouring active pixels: two triangles a cell, along the diagonal of the
 /// smaller depth step, one where a corner is missing [Kobbelt, Botsch 2000, 2]. O(pixels).
 /// @param active 1 where the sample takes part; pixels without a sample never do
-[[nodiscard]] GridCells build_grid_cells(const RangeImage& image, const Grid<std::uint8_t>& active,
+[[nodiscard]] GridCells build_grid_cells(const RangeImage& image, const Mask& active,
                                          const GridCellOptions& options = {});
 
 /// Corners, counter-clockwise in the window, of the lower or upper triangle of a cell.

@@ -10,8 +10,10 @@ struct MedianFilterOptions {
                           ///< sheet and do not take part
 };
 
-/// Replaces every sample by the median of the samples around it. Removes jitter and keeps steps;
-/// never makes a sample where there was none, nor removes one, so the outline of the object stays
+/// Replaces every sample by the median of the samples around it. A neighbour takes part together
+/// with the one opposite to it, or not at all, so a tilted plane stays that plane up to its border.
+/// Removes jitter and keeps steps; never makes a sample where there was none, nor removes one, so
+/// the outline of the object stays
 /// [Kobbelt, Botsch 2000, 4.2, Fig. 4]. O(pixels * radius^2).
 /// @throws InvalidArgument if options.radius < 1 or max_step <= 0.
 [[nodiscard]] RangeImage median_filter(const RangeImage& image,

@@ -28,12 +28,15 @@ struct PlaneFitResult {
 /// same on every backend.
 ///
 /// Pixels whose mean vote is negative show the inside of a surface through a hole and lose their
-/// sample (only if the items carry votes). Pixels won by a triangle keep its plane.
+/// sample (only if the items carry votes). Pixels won by a triangle keep its plane. A plane that
+/// would leave the sample by more than 1 + g pixel sides is not taken: the sample stays as it is.
+/// Cost: one pass of the rasterizer over the points.
 ///
 /// @param nearest the range image of `framebuffer`, after any removal of samples
 /// @param slopes estimate_slopes(nearest)
 /// @param framebuffer what `nearest` was resolved from: tells points from triangles
 /// @param items what was drawn
+/// @throws InvalidArgument if extents differ or an ID belongs to no item.
 [[nodiscard]] PlaneFitResult fit_planes(Rasterizer& rasterizer, std::span<const DrawItem> items,
                                         const Framebuffer& framebuffer, const RangeImage& nearest,
                                         const SlopeImage& slopes,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <span>
 
@@ -51,6 +52,10 @@ class RangeImage {
   View view_;
   Grid<double> depth_;
 };
+
+/// Which pixels take part: 1 active, 0 not. One byte a pixel, so that it is a span, a NumPy array
+/// and a GL upload as it is.
+using Mask = Grid<std::uint8_t>;
 
 /// Tilt of the surface at each sample: change of eye depth from pixel to pixel, to the right (x)
 /// and up (y), in pixel sides at the sample, thus dimensionless; (0, 0) faces the viewer, length 1

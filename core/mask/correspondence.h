@@ -31,7 +31,8 @@ struct Correspondence {
 /// (Facing::front) and back faces are drawn apart.
 /// id_buffer: the paper's way; the visible face is a start from which a walk over edge neighbours
 /// goes downhill in distance to the sample; accepted at any distance.
-/// Cost: one pass of the rasterizer over the mesh, O(faces + pixels).
+/// Cost: two passes of the rasterizer over the mesh or one, O(faces + pixels).
+/// @throws InvalidArgument if the extents differ or a band is negative or not finite.
 [[nodiscard]] Correspondence find_correspondence(Rasterizer& rasterizer, const RangeImage& image,
                                                  const SlopeImage& slopes, const TriangleMesh& mesh,
                                                  const CorrespondenceOptions& options = {});

@@ -3,7 +3,6 @@
 #include <span>
 
 #include "core/base/geometry.h"
-#include "core/base/grid.h"
 #include "core/image/range_image.h"
 
 namespace rangezip {

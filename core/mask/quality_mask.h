@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/image/grid_cells.h"
 #include "core/image/range_image.h"
 #include "core/mask/correspondence.h"
 #include "core/mask/mask.h"
@@ -8,12 +9,14 @@
 namespace rangezip {
 
 /// Sampling quality of each active sample, model units, small is good: the longest edge from it to
-/// its active grid neighbours over which triangulate() would build a triangle
+/// its active grid neighbours over which triangulate() would build a triangle (by `cells`)
 /// [Kobbelt, Botsch 2000, 4.3]; with `smooth`, the mean of that and of the longest side of a grid
 /// cell at the sample's slope, h sqrt(2 + 1.5 slope^2), which varies less from pixel to pixel.
-/// kNoSample where there is no such neighbour.
+/// kNoSample where there is no such neighbour. O(pixels).
+/// @throws InvalidArgument for different extents, like the functions below.
 [[nodiscard]] Grid<double> sample_quality(const RangeImage& image, const SlopeImage& slopes,
-                                          const Mask& active, bool smooth = true);
+                                          const Mask& active, bool smooth = true,
+                                          const GridCellOptions& cells = {});
 
 struct QualityMaskOptions {
   double hysteresis = 0.8;  ///< a sample replaces old surface if its quality is less than this

@@ -204,8 +204,7 @@ void remove_small_pieces(Patch& patch, std::size_t min_triangles) {
 }  // namespace
 
 Patch triangulate(const RangeImage& image, const Mask& active, const TriangulateOptions& options) {
-  GridCells cells = build_grid_cells(
-      image, active, {.max_edge = options.max_edge, .min_cosine = options.max_slope_cosine});
+  GridCells cells = build_grid_cells(image, active, grid_cell_options(options));
   FanCleaner(cells).clean();
   Patch patch = patch_from_cells(image, cells);
   if (options.min_component > 1) remove_small_pieces(patch, options.min_component);

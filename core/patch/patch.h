@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/image/grid_cells.h"
 #include "core/image/range_image.h"
 #include "core/mask/mask.h"
 #include "core/mesh/triangle_mesh.h"
@@ -22,6 +23,11 @@ struct TriangulateOptions {
                                   ///< sight stay open; 0: all are kept
   std::size_t min_component = 1;  ///< pieces with fewer triangles are dropped
 };
+
+/// The part of the options that decides on single triangles.
+[[nodiscard]] inline GridCellOptions grid_cell_options(const TriangulateOptions& options) {
+  return {.max_edge = options.max_edge, .min_cosine = options.max_slope_cosine};
+}
 
 /// Joins active samples of neighbouring pixels to triangles: two a cell, along the diagonal of
 /// the smaller depth step, one where a corner is missing. The neighbourhood of the samples is that

@@ -45,14 +45,14 @@ struct ScanRequest {
 
 /// Per-scan counts for the report.
 struct ScanReport {
-  std::size_t samples = 0;       ///< pixels with a sample after all passes
-  std::size_t see_through = 0;   ///< samples removed
-  std::size_t back_side = 0;     ///< samples removed
-  std::size_t inside = 0;        ///< samples removed by the visibility vote
-  std::size_t filled = 0;        ///< samples made
-  std::size_t steep = 0;         ///< samples left out
-  std::size_t matched = 0;       ///< samples that lie on a face of the mesh so far
-  std::size_t active = 0;        ///< pixels in the final mask
+  std::size_t samples = 0;      ///< pixels with a sample after all passes
+  std::size_t see_through = 0;  ///< samples removed
+  std::size_t back_side = 0;    ///< samples removed
+  std::size_t inside = 0;       ///< samples removed by the visibility vote
+  std::size_t filled = 0;       ///< samples made
+  std::size_t steep = 0;        ///< samples left out
+  std::size_t matched = 0;      ///< samples that lie on a face of the mesh so far
+  std::size_t active = 0;       ///< pixels in the final mask
   std::size_t patch_faces = 0;
 };
 
@@ -60,6 +60,7 @@ struct ScanReport {
 struct Scan {
   Framebuffer scene_buffer;  ///< the scene, as drawn
   RangeImage image;          ///< after all passes
+  Mask filled;               ///< 1 where fill_holes() made the sample
   SlopeImage slopes;
   Correspondence correspondence;  ///< with the mesh so far
   Mask active;                    ///< after all masks
@@ -70,7 +71,9 @@ struct Scan {
 /// One pass through the pipeline, up to the patch:
 /// scene -> view -> rasterizer -> range image -> passes -> mask -> patch.
 /// A pure function of its arguments; the rasterizer is only a tool.
+/// The patch's vertices name the primitive that won their pixel (none for filled ones).
 /// @param votes one per point of the scene (see DrawPoints), or empty: no visibility vote
+/// @throws InvalidArgument if a part of the request breaks the rule of its pass, Cancelled.
 [[nodiscard]] Scan scan(Rasterizer& rasterizer, const Scene& scene, const TriangleMesh& mesh,
                         const ScanRequest& request, std::span<const std::int8_t> votes = {},
                         const Progress& progress = {});

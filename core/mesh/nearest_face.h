@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/mesh/edge_map.h"
+#include "core/mesh/triangle_mesh.h"
+
+namespace rangezip {
+
+/// Directed edges of a mesh. Where an edge is in two faces, the first counts. O(faces).
+[[nodiscard]] EdgeMap edges_of(const TriangleMesh& mesh);
+
+/// A face and how far it is.
+struct NearestFace {
+  std::uint32_t face = 0;
+  double squared_distance = 0.0;  ///< model units squared
+
+  friend bool operator==(const NearestFace&, const NearestFace&) = default;
+};
+
+/// The face reached from `start` by going downhill in distance to `point`: to the nearest of the
+/// faces across the three edges or, where none is nearer, to the nearest one around the corner that
+/// is nearest to the point. Ends in a local minimum: the local search of
+/// [Kobbelt, Botsch 2000, 4.3]. Ties stay where they are.
+/// @param edges edges_of(mesh)
+/// @pre start is a face of the mesh
+[[nodiscard]] NearestFace walk_to_nearest_face(const TriangleMesh& mesh, const EdgeMap& edges,
+                                               std::uint32_t start, const Vec3& point);
+
+}  // namespace rangezip
