@@ -1,9 +1,12 @@
 // rangezip-compare: the referee on the command line. Exit codes: see kFooter.
 #include <CLI/CLI.hpp>
+#include <array>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <string>
 
+#include "apps/rangezip-compare/images_command.h"
 #include "apps/rangezip-compare/mesh_command.h"
 #include "core/base/error.h"
 
@@ -12,11 +15,14 @@ namespace {
 using namespace rangezip;
 using namespace rangezip::compare;
 
-enum ExitCode { kGood = 0, kBad = 1, kUsage = 2, kFile = 3, kFailure = 4 };
+/// The numbers that `rangezip` returns for the same things.
+enum ExitCode { kGood = 0, kUsage = 1, kBadInput = 2, kBadOutput = 3, kBad = 5, kFailure = 6 };
 
 constexpr const char* kFooter =
-    "Exit codes: 0 the mesh is clean, or the images are identical; 1 it is not, or they differ;\n"
-    "2 wrong usage; 3 a file cannot be read or written; 4 any other failure.\n"
+    "Exit codes: 0 the mesh is clean, or the images are identical; 1 wrong usage; 2 an input "
+    "cannot\n"
+    "be read; 3 an output cannot be written; 5 the mesh is not clean, or the images differ; 6 any\n"
+    "other failure.\n"
     "This program contains code of CGAL and is under the GNU General Public License, version 3 or\n"
     "later; rangezip's own code in it is BSD-3-Clause.";
 
@@ -45,12 +51,21 @@ int run(int argc, char** argv) {
       ->capture_default_str();
   judge->add_option("--seed", mesh.seed, "Of the samples")->capture_default_str();
 
+  std::array<std::filesystem::path, 2> image;
+  CLI::App* images =
+      app.add_subcommand("images", "Compare two images that `rangezip scan` wrote, pixel by pixel");
+  images->footer(kFooter);
+  images->add_option("REFERENCE", image[0], "Depths (.pfm), IDs or a mask (.png)")->required();
+  images->add_option("CANDIDATE", image[1], "Another of the same kind and size")->required();
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return report_parse_error(app, error);
   }
-  return run_mesh_command(mesh, std::cout) ? kGood : kBad;
+  const bool good = images->parsed() ? run_images_command(image[0], image[1], std::cout)
+                                     : run_mesh_command(mesh, std::cout);
+  return good ? kGood : kBad;
 }
 
 }  // namespace
@@ -58,9 +73,12 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return run(argc, argv);
+  } catch (const OutputError& error) {
+    std::cerr << "rangezip-compare: " << error.what() << '\n';
+    return kBadOutput;
   } catch (const IoError& error) {
     std::cerr << "rangezip-compare: " << error.what() << '\n';
-    return kFile;
+    return kBadInput;
   } catch (const std::exception& error) {
     std::cerr << "rangezip-compare: " << error.what() << '\n';
     return kFailure;

@@ -85,7 +85,7 @@ void write_json(const std::filesystem::path& path, const Json& json) {
   std::ofstream file(path);
   file << json.dump(2) << '\n';
   file.close();
-  if (!file) throw IoError(path.string() + ": the report cannot be written in full");
+  if (!file) throw OutputError(path.string() + ": the report cannot be written in full");
 }
 
 struct Cloud {

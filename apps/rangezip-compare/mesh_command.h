@@ -6,7 +6,14 @@
 #include <iosfwd>
 #include <optional>
 
+#include "core/base/error.h"
+
 namespace rangezip::compare {
+
+/// The report cannot be written.
+class OutputError : public Error {
+  using Error::Error;
+};
 
 struct MeshCommand {
   std::filesystem::path mesh;
@@ -21,8 +28,8 @@ struct MeshCommand {
 /// given in % of the diagonal of the truth's bounding box, else the cloud's.
 /// @return true if the mesh is clean: manifold, oriented, without degenerate faces and
 ///     self-intersections
-/// @throws IoError if a file cannot be read or written; TopologyError if a mesh has indices out of
-///     range.
+/// @throws IoError if a file cannot be read, OutputError if the report cannot be written,
+///     TopologyError if a mesh has no area where a distance is asked for.
 bool run_mesh_command(const MeshCommand& command, std::ostream& out);
 
 }  // namespace rangezip::compare

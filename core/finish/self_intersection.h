@@ -11,8 +11,9 @@ namespace rangezip {
 
 /// All pairs of triangles (lower index first, sorted) that cross, overlap, or touch other than in
 /// the vertex or edge they share: neighbours count only if they fold onto or pass through each
-/// other; degenerate triangles count with what they touch. Exact: decided by signs of determinants
-/// computed without error. The same verdict as CGAL's Polygon_mesh_processing::self_intersections.
+/// other (core/finish/triangle_overlap.h). A triangle without area pairs with itself, {i, i}, and
+/// with no other. Exact: decided by signs of determinants computed without error. The same verdict
+/// as CGAL's Polygon_mesh_processing::self_intersections.
 /// Cost: a uniform grid over the triangles, about linear for meshes of even size.
 [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(
     const TriangleMesh& mesh);

@@ -141,11 +141,12 @@ class XyzReader {
         continue;
       }
       if (take_count(line)) continue;
-      layout_.separator = separator_of(line);
+      layout_ = Layout{.separator = separator_of(line)};
+      apply_names(last_text, line, layout_);
       Vec3 position{0.0};
       const char* at = line.data();
       if (read_columns(at, line.data() + line.size(), layout_, position)) {
-        start_points(last_text, line, header_lines);
+        start_points(line, header_lines);
         return;
       }
       if (first_text == nullptr) first_text = line.data();
@@ -157,8 +158,7 @@ class XyzReader {
                        "lines that follow");
   }
 
-  void start_points(std::string_view header, std::string_view line, std::size_t header_lines) {
-    apply_names(header, line, layout_);
+  void start_points(std::string_view line, std::size_t header_lines) {
     if (header_lines != 0) {
       geometry_.notes.push_back(std::to_string(header_lines) +
                                 " header lines before the first point are skipped");

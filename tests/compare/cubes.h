@@ -8,17 +8,10 @@
 /// Meshes with closed-form answers, for the judges' own tests.
 namespace rangezip::test {
 
-/// The closed cube with corners (+-half_side, +-half_side, +-half_side) about `center`, faces
-/// outward, two a side.
+/// The closed cube with sides of 2 half_side about `center`, faces outward, two a side; the last
+/// two are the side of greatest x.
 inline TriangleMesh cube(double half_side, const Vec3& center = Vec3{0.0}) {
-  TriangleMesh mesh;
-  for (int corner = 0; corner < 8; ++corner) {
-    const auto sign = [&](int axis) { return ((corner >> axis) & 1) != 0 ? 1.0 : -1.0; };
-    mesh.positions.push_back(center + half_side * Vec3{sign(0), sign(1), sign(2)});
-  }
-  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-  return mesh;
+  return shapes::to_mesh(shapes::box(center - half_side, center + half_side));
 }
 
 /// Both meshes as one, not joined.

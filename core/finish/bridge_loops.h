@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+
+#include "core/mesh/triangle_mesh.h"
+
+namespace rangezip {
+
+/// Joins pieces of a mesh over the cracks between them: where the boundary loops of two different
+/// components run beside each other within three pixels for half of the shorter one, two triangles
+/// go across at the narrowest place, so that the two loops become one crack that can be filled.
+/// Loops of one component are never joined: that would make a handle.
+/// Positions stay. @param pixel_size h, model units; positive
+/// @pre oriented, manifold
+/// @return number of bridges; their faces are the last ones of the mesh, two each
+std::size_t bridge_loops(TriangleMesh& mesh, double pixel_size);
+
+}  // namespace rangezip

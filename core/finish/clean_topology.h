@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+
+#include "core/mesh/triangle_mesh.h"
+
+namespace rangezip {
+
+/// Makes a mesh oriented and manifold by dropping as few faces as simple rules allow: those that
+/// repeat a corner, those that use a directed edge that an earlier face has, and at a vertex with
+/// several fans all but the fan with most faces (the earliest of equals).
+/// Positions stay, unused ones too. O(faces). @return faces dropped
+std::size_t clean_topology(TriangleMesh& mesh);
+
+struct DroppedComponents {
+  std::size_t components = 0;
+  std::size_t faces = 0;
+};
+
+/// Drops the components (joined over shared edges) with fewer than `min_faces` faces; the largest
+/// one (the earliest of equals) always stays. Positions stay. @pre oriented and manifold
+DroppedComponents drop_small_components(TriangleMesh& mesh, std::size_t min_faces);
+
+}  // namespace rangezip

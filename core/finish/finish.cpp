@@ -1,0 +1,52 @@
+#include "core/finish/finish.h"
+
+#include <cmath>
+#include <string>
+
+#include "core/base/error.h"
+#include "core/finish/boundary_loops.h"
+#include "core/finish/corner_table.h"
+#include "core/finish/point_grid.h"
+#include "core/finish/repair.h"
+
+namespace rangezip {
+namespace {
+
+/// In h: the largest radius in which points around a vertex are looked for.
+constexpr double kSearchRadius = 1.3;
+/// In h: how far beyond the mesh points may matter.
+constexpr double kRegionMargin = 4.0;
+
+void check(const FinishOptions& options) {
+  if (!(options.pixel_size > 0.0) || !std::isfinite(options.pixel_size)) {
+    throw InvalidArgument("finish: pixel_size must be positive and finite, got " +
+                          std::to_string(options.pixel_size));
+  }
+}
+
+Box region_of(const TriangleMesh& mesh, double margin) {
+  Box region = bounds_of(mesh);
+  region.lower -= Vec3(margin);
+  region.upper += Vec3(margin);
+  return region;
+}
+
+}  // namespace
+
+FinishResult finish(TriangleMesh mesh, std::span<const Vec3> cloud, const FinishOptions& options,
+                    const Progress& progress) {
+  check(options);
+  FinishResult result;
+  if (mesh.empty()) return result;
+  progress.at("finish", 0.0);
+  const double h = options.pixel_size;
+  const PointGrid points(cloud, region_of(mesh, kRegionMargin * h), kSearchRadius * h);
+  repair(mesh, points, options, result.report, progress);
+  const CornerTable table(mesh.triangles, mesh.positions.size());
+  result.report.open_loops = boundary_loops(table).size();
+  result.mesh = std::move(mesh);
+  progress.at("finish", 1.0);
+  return result;
+}
+
+}  // namespace rangezip

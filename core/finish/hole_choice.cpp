@@ -1,0 +1,119 @@
+#include "core/finish/hole_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rangezip {
+namespace {
+
+/// In h: loops up to this are a few pixels across; no point can tell what they are.
+constexpr double kSmallPerimeter = 20.0;
+/// In h: wider holes without points inside are closed flat; a smooth fill of them would bulge.
+constexpr double kSmoothPerimeter = 30.0;
+/// The cost of judging a loop grows with the square of its edges.
+constexpr std::size_t kMaxEdges = 6000;
+/// Mean cosine between the surface beside the loop and the plane across it: below, the surface ends
+/// there. 0 at the end of a tube, -1 at the outline of a terrain, 1 in a plane.
+constexpr double kLeadsInto = 0.35;
+/// Area over squared perimeter, 1 for a circle: below, the plane across a loop means little.
+constexpr double kRound = 0.5;
+/// In h: inside of a fill is what lies farther from the loop than this, the reach of what was
+/// scanned beside it; evidence is a point nearer to it than kEvidenceRadius.
+constexpr double kInsideMargin = 1.5;
+constexpr double kEvidenceRadius = 1.0;
+constexpr double kEvidenceShare = 0.3;
+constexpr int kMinEvidenceSamples = 3;
+
+struct LoopGeometry {
+  std::vector<Vec3> points;
+  double perimeter = 0.0;
+  Vec3 across{0.0};  ///< area vector of the loop
+  Vec3 beside{0.0};  ///< mean unit normal of the faces along the loop
+};
+
+LoopGeometry geometry_of(const std::vector<Vec3>& positions, const CornerTable& table,
+                         const BoundaryLoop& loop) {
+  LoopGeometry geometry;
+  for (const std::uint32_t v : vertices_of(loop, table))
+    geometry.points.push_back(positions[v]);
+  const std::size_t n = geometry.points.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3& p = geometry.points[i];
+    const Vec3& q = geometry.points[(i + 1) % n];
+    const double side = glm::length(q - p);
+    geometry.perimeter += side;
+    geometry.across += 0.5 * area_vector(geometry.points[0], p, q);
+    const Triangle t = table.triangle(loop.corners[i] / 3);
+    const Vec3 area = area_vector(positions[t[0]], positions[t[1]], positions[t[2]]);
+    const double length = glm::length(area);
+    if (length > 0.0) geometry.beside += area * (side / length);
+  }
+  geometry.beside /= geometry.perimeter;
+  return geometry;
+}
+
+/// A round loop at which the surface ends.
+bool is_rim(const LoopGeometry& loop) {
+  constexpr double kFourPi = 12.566370614359172954;
+  const double area = glm::length(loop.across);
+  if (area * kFourPi < kRound * loop.perimeter * loop.perimeter) return false;
+  return glm::dot(loop.across, loop.beside) < kLeadsInto * area;
+}
+
+double area_of(const std::vector<Vec3>& positions, const HoleFill& fill) {
+  const auto at = [&](std::uint32_t v) -> const Vec3& {
+    return v < positions.size() ? positions[v] : fill.new_positions[v - positions.size()];
+  };
+  double area = 0.0;
+  for (const Triangle& t : fill.triangles) {
+    area += 0.5 * glm::length(area_vector(at(t[0]), at(t[1]), at(t[2])));
+  }
+  return area;
+}
+
+double squared_distance_to(const std::vector<Vec3>& points, const Vec3& p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vec3& q : points)
+    least = std::min(least, glm::dot(q - p, q - p));
+  return least;
+}
+
+/// Whether the cloud has points where a fill has its own.
+bool has_points_inside(const LoopGeometry& loop, const HoleFill& fill, const PointGrid& cloud,
+                       double pixel_size) {
+  if (cloud.empty()) return false;
+  const double margin = kInsideMargin * pixel_size;
+  const double radius = kEvidenceRadius * pixel_size;
+  int samples = 0;
+  int supported = 0;
+  for (const Vec3& p : fill.new_positions) {
+    if (squared_distance_to(loop.points, p) < margin * margin) continue;
+    ++samples;
+    bool found = false;
+    cloud.for_each_near(p,
+                        [&](const Vec3& d) { found = found || glm::dot(d, d) < radius * radius; });
+    supported += found ? 1 : 0;
+  }
+  return samples >= kMinEvidenceSamples && supported > kEvidenceShare * samples;
+}
+
+}  // namespace
+
+std::optional<FillShape> choose_fill(const std::vector<Vec3>& positions, const CornerTable& table,
+                                     const BoundaryLoop& loop, const PointGrid& cloud,
+                                     const HoleChoiceOptions& options) {
+  const double h = options.pixel_size;
+  if (loop.corners.size() > kMaxEdges) return std::nullopt;
+  const LoopGeometry geometry = geometry_of(positions, table, loop);
+  if (geometry.perimeter <= kSmallPerimeter * h) return FillShape::smooth;
+  const HoleFill fill = fill_loop(positions, table, loop, FillShape::smooth, h);
+  const double width = 2.0 * area_of(positions, fill) / geometry.perimeter;  // of a long strip
+  const bool is_large = geometry.perimeter > options.max_hole_perimeter * h;
+  if (is_large && width < options.narrow_width * h) return FillShape::coarse;
+  if (has_points_inside(geometry, fill, cloud, h)) return FillShape::smooth;
+  if (is_large || is_rim(geometry)) return std::nullopt;
+  return geometry.perimeter <= kSmoothPerimeter * h ? FillShape::smooth : FillShape::flat;
+}
+
+}  // namespace rangezip

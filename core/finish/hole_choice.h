@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/finish/boundary_loops.h"
+#include "core/finish/hole_filling.h"
+#include "core/finish/point_grid.h"
+
+namespace rangezip {
+
+struct HoleChoiceOptions {
+  double pixel_size = 0.0;           ///< h, model units
+  double max_hole_perimeter = 60.0;  ///< in h
+  double narrow_width = 4.5;         ///< in h
+};
+
+/// Whether a boundary loop is a gap in what was scanned, and then how to close it, or the border of
+/// an open surface, which stays (no value):
+/// - a small loop (up to 20 h) is closed;
+/// - a crack, narrower than narrow_width on average, is closed whatever its length;
+/// - a loop with points of the cloud inside is closed whatever its size;
+/// - others up to max_hole_perimeter are closed, but not a round rim where the surface ends without
+///   leading into the hole, as at the end of a tube.
+/// Loops of more than 6000 edges always stay.
+/// @param cloud points of the cloud, with a radius of at least h; may be empty: no evidence
+[[nodiscard]] std::optional<FillShape> choose_fill(const std::vector<Vec3>& positions,
+                                                   const CornerTable& table,
+                                                   const BoundaryLoop& loop, const PointGrid& cloud,
+                                                   const HoleChoiceOptions& options);
+
+}  // namespace rangezip

@@ -1,0 +1,146 @@
+#include "core/finish/hole_filling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/base/error.h"
+#include "core/finish/clean_topology.h"
+#include "core/finish/fill_patch.h"
+#include "core/finish/loop_triangulation.h"
+#include "core/finish/verified_fills.h"
+
+namespace rangezip {
+namespace {
+
+/// Holes of fewer edges need no new points.
+constexpr std::size_t kMinEdgesToRefine = 11;
+
+Vec3 normal_of_face(const std::vector<Vec3>& positions, const Triangle& t) {
+  const Vec3 area = area_vector(positions[t[0]], positions[t[1]], positions[t[2]]);
+  const double length = glm::length(area);
+  return length > 0.0 ? area / length : Vec3{0.0};
+}
+
+/// The loop's vertices and which of them the mesh already joins.
+class LoopEdges {
+ public:
+  LoopEdges(const CornerTable& table, const std::vector<std::uint32_t>& vertices) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> place_of;  // vertex, place in the loop
+    for (std::uint32_t i = 0; i < vertices.size(); ++i)
+      place_of.emplace_back(vertices[i], i);
+    std::sort(place_of.begin(), place_of.end());
+    for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+      table.for_each_neighbor(vertices[i], [&](std::uint32_t w) {
+        const auto at = std::lower_bound(place_of.begin(), place_of.end(), std::pair{w, 0U});
+        if (at != place_of.end() && at->first == w) joined_.emplace_back(i, at->second);
+      });
+    }
+    std::sort(joined_.begin(), joined_.end());
+  }
+  [[nodiscard]] bool are_joined(std::uint32_t i, std::uint32_t k) const {
+    return std::binary_search(joined_.begin(), joined_.end(), std::pair{i, k});
+  }
+
+ private:
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> joined_;
+};
+
+/// Per point of the loop the mean of its two edges, but not less than the length asked for.
+std::vector<double> scales_of(const std::vector<Vec3>& loop, double edge_length) {
+  const std::size_t n = loop.size();
+  std::vector<double> scales(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double before = glm::length(loop[i] - loop[(i + n - 1) % n]);
+    const double after = glm::length(loop[(i + 1) % n] - loop[i]);
+    scales[i] = std::max(0.5 * (before + after), edge_length);
+  }
+  return scales;
+}
+
+LoopSurroundings surroundings_of(const std::vector<Vec3>& positions, const CornerTable& table,
+                                 const std::vector<std::uint32_t>& vertices) {
+  LoopSurroundings around;
+  for (const std::uint32_t v : vertices) {
+    Vec3 sum{0.0};
+    int count = 0;
+    table.for_each_neighbor(v, [&](std::uint32_t w) {
+      sum += positions[w];
+      ++count;
+    });
+    around.neighbor_sum.push_back(sum);
+    around.neighbor_count.push_back(count);
+  }
+  return around;
+}
+
+}  // namespace
+
+HoleFill fill_loop(const std::vector<Vec3>& positions, const CornerTable& table,
+                   const BoundaryLoop& loop, FillShape shape, double edge_length) {
+  const std::vector<std::uint32_t> vertices = vertices_of(loop, table);
+  const LoopEdges edges(table, vertices);
+  LoopShape polygon;
+  for (const std::uint32_t v : vertices)
+    polygon.points.push_back(positions[v]);
+  for (const std::uint32_t c : loop.corners) {
+    polygon.edge_normals.push_back(normal_of_face(positions, table.triangle(c / 3)));
+  }
+  polygon.is_forbidden = [&](std::uint32_t i, std::uint32_t k) { return edges.are_joined(i, k); };
+  FillPatch patch{polygon.points, triangulate_loop(polygon), vertices.size()};
+  if (shape != FillShape::coarse && vertices.size() >= kMinEdgesToRefine &&
+      !patch.triangles.empty()) {
+    refine_patch(patch, scales_of(polygon.points, edge_length), polygon.is_forbidden);
+    flatten_patch(patch);
+    if (shape == FillShape::smooth) fair_patch(patch, surroundings_of(positions, table, vertices));
+  }
+  HoleFill fill;
+  const auto n = static_cast<std::uint32_t>(vertices.size());
+  const auto first_new = static_cast<std::uint32_t>(positions.size());
+  for (Triangle t : patch.triangles) {
+    for (std::uint32_t& v : t)
+      v = v < n ? vertices[v] : first_new + (v - n);
+    fill.triangles.push_back(t);
+  }
+  fill.new_positions.assign(patch.positions.begin() + n, patch.positions.end());
+  return fill;
+}
+
+void append_fill(TriangleMesh& mesh, const HoleFill& fill, std::size_t base) {
+  const std::size_t first_new = mesh.positions.size();
+  for (Triangle t : fill.triangles) {
+    for (std::uint32_t& v : t) {
+      if (v >= base) v = static_cast<std::uint32_t>(v - base + first_new);
+    }
+    mesh.triangles.push_back(t);
+  }
+  mesh.positions.insert(mesh.positions.end(), fill.new_positions.begin(), fill.new_positions.end());
+  if (!mesh.sources.empty()) mesh.sources.resize(mesh.positions.size());
+}
+
+FilledMesh fill_mesh_holes(TriangleMesh mesh, double edge_length, double max_perimeter) {
+  if (!(edge_length >= 0.0) || !std::isfinite(edge_length)) {
+    throw InvalidArgument("fill_mesh_holes: edge_length must be finite and not negative, got " +
+                          std::to_string(edge_length));
+  }
+  if (!(max_perimeter >= 0.0) || !std::isfinite(max_perimeter)) {
+    throw InvalidArgument("fill_mesh_holes: max_perimeter must be finite and not negative, got " +
+                          std::to_string(max_perimeter));
+  }
+  clean_topology(mesh);
+  std::vector<FillRequest> requests;
+  const CornerTable table(mesh.triangles, mesh.positions.size());
+  for (BoundaryLoop& loop : boundary_loops(table)) {
+    if (perimeter_of(loop, table, mesh.positions) > max_perimeter) continue;
+    requests.push_back({std::move(loop), FillShape::smooth});
+  }
+  const VerifiedFills fills = fill_verified(mesh, table, requests, edge_length);
+  FilledMesh result;
+  result.filled_holes = fills.filled_holes;
+  result.filled_faces = fills.filled_faces;
+  remove_unused_vertices(mesh);
+  result.mesh = std::move(mesh);
+  return result;
+}
+
+}  // namespace rangezip

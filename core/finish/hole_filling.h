@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/finish/boundary_loops.h"
+#include "core/finish/corner_table.h"
+#include "core/mesh/triangle_mesh.h"
+
+namespace rangezip {
+
+/// Shape of a fill inside its loop.
+enum class FillShape {
+  coarse,  ///< no new points: small holes and cracks
+  flat,    ///< points as dense as around the hole, as a soap film
+  smooth,  ///< the same, continuing the surface around
+};
+
+/// Faces that fill a hole. Corners are vertices of the mesh or, from the count of positions on, new
+/// ones.
+struct HoleFill {
+  std::vector<Triangle> triangles;
+  std::vector<Vec3> new_positions;
+};
+
+/// Fills one loop: least sharp triangulation (core/finish/loop_triangulation.h), then refined and
+/// shaped, unless it has ten edges or fewer. Never makes an edge that the mesh already has. Empty
+/// if there is no such triangulation.
+/// @param edge_length new edges are about as long as those around the hole, or this if it is longer
+/// @param positions of the table's vertices; more may follow
+[[nodiscard]] HoleFill fill_loop(const std::vector<Vec3>& positions, const CornerTable& table,
+                                 const BoundaryLoop& loop, FillShape shape, double edge_length);
+
+/// Appends a fill to a mesh; new vertices have no source.
+/// @param base count of positions when the fill was made; the mesh may have grown since
+void append_fill(TriangleMesh& mesh, const HoleFill& fill, std::size_t base);
+
+struct FilledMesh {
+  TriangleMesh mesh;
+  std::size_t filled_holes = 0;
+  std::size_t filled_faces = 0;
+};
+
+/// Closes every boundary loop up to a perimeter where that crosses nothing, continuing the surface
+/// around it smoothly. The input is made manifold first (core/finish/clean_topology.h).
+/// @param edge_length model units, of new edges: see fill_loop
+/// @param max_perimeter model units
+/// @throws InvalidArgument if a length is negative or not finite.
+[[nodiscard]] FilledMesh fill_mesh_holes(TriangleMesh mesh, double edge_length,
+                                         double max_perimeter);
+
+}  // namespace rangezip

@@ -1,0 +1,185 @@
+#include "core/finish/loop_triangulation.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+namespace rangezip {
+namespace {
+
+/// Longer loops are divided: beyond this the cubic cost shows.
+constexpr std::size_t kMaxDirectEdges = 100;
+/// A chord leaves at least this share of the loop on either side.
+constexpr std::size_t kDivideIntoAtLeast = 4;
+
+/// A piece of the loop: indices of its points, and the normals across its edges.
+struct Piece {
+  std::vector<std::uint32_t> points;
+  std::vector<Vec3> edge_normals;
+};
+
+/// How bad a triangulation is: first by its sharpest edge, then by its area.
+struct Weight {
+  double angle = 0.0;  ///< the largest 1 - cos between neighbours
+  double area = 0.0;   ///< twice the area
+
+  friend bool operator<(const Weight& a, const Weight& b) {
+    return a.angle != b.angle ? a.angle < b.angle : a.area < b.area;
+  }
+};
+
+constexpr Weight kImpossible{std::numeric_limits<double>::infinity(),
+                             std::numeric_limits<double>::infinity()};
+
+/// 0 for parallel unit normals, 2 for a fold; nothing across: no angle.
+double bend(const Vec3& a, const Vec3& b) {
+  return glm::dot(b, b) > 0.0 ? 1.0 - glm::dot(a, b) : 0.0;
+}
+
+/// The table of best triangulations of all sub-polygons i..k of a piece.
+class Triangulator {
+ public:
+  Triangulator(const LoopShape& shape, const Piece& piece)
+      : shape_(shape),
+        piece_(piece),
+        size_(piece.points.size()),
+        weights_(size_ * size_, kImpossible),
+        normals_(size_ * size_, Vec3{0.0}),
+        middles_(size_ * size_, 0) {}
+
+  /// Appends the best triangulation; false if there is none.
+  bool run(std::vector<Triangle>& triangles) {
+    for (std::size_t i = 0; i + 1 < size_; ++i) {
+      weights_[slot(i, i + 1)] = Weight{};
+      normals_[slot(i, i + 1)] = piece_.edge_normals[i];
+    }
+    for (std::size_t span = 2; span < size_; ++span) {
+      for (std::size_t i = 0; i + span < size_; ++i)
+        choose_middle(i, i + span);
+    }
+    if (weights_[slot(0, size_ - 1)].angle == kImpossible.angle) return false;
+    collect(triangles);
+    return true;
+  }
+
+ private:
+  [[nodiscard]] std::size_t slot(std::size_t i, std::size_t k) const { return i * size_ + k; }
+  [[nodiscard]] const Vec3& point(std::size_t i) const { return shape_.points[piece_.points[i]]; }
+
+  void choose_middle(std::size_t i, std::size_t k) {
+    const bool closes = i == 0 && k == size_ - 1;  // the side from k to i is an edge of the piece
+    if (!closes && shape_.is_forbidden(piece_.points[i], piece_.points[k])) return;
+    const std::size_t here = slot(i, k);
+    for (std::size_t m = i + 1; m < k; ++m) {
+      const Weight& left = weights_[slot(i, m)];
+      const Weight& right = weights_[slot(m, k)];
+      Weight weight{std::max(left.angle, right.angle), left.area + right.area};
+      if (!(weight.angle <= weights_[here].angle) || weight.angle == kImpossible.angle) continue;
+      const Vec3 area = area_vector(point(i), point(m), point(k));
+      const double length = glm::length(area);
+      constexpr double kFold = 2.0;  // a triangle without area: as bad as a fold
+      weight.area += length;
+      if (length > 0.0) {
+        const Vec3 normal = area / length;
+        weight.angle = std::max(
+            {weight.angle, bend(normal, normals_[slot(i, m)]), bend(normal, normals_[slot(m, k)])});
+        if (closes) weight.angle = std::max(weight.angle, bend(normal, piece_.edge_normals[k]));
+        if (weight < weights_[here]) set(here, weight, normal, m);
+      } else {
+        weight.angle = kFold;
+        if (weight < weights_[here]) set(here, weight, Vec3{0.0}, m);
+      }
+    }
+  }
+
+  void set(std::size_t here, const Weight& weight, const Vec3& normal, std::size_t middle) {
+    weights_[here] = weight;
+    normals_[here] = normal;
+    middles_[here] = static_cast<std::uint32_t>(middle);
+  }
+
+  void collect(std::vector<Triangle>& triangles) const {
+    std::vector<std::pair<std::size_t, std::size_t>> open{{0, size_ - 1}};
+    while (!open.empty()) {
+      const auto [i, k] = open.back();
+      open.pop_back();
+      if (k - i < 2) continue;
+      const std::size_t m = middles_[slot(i, k)];
+      triangles.push_back({piece_.points[i], piece_.points[m], piece_.points[k]});
+      open.emplace_back(i, m);
+      open.emplace_back(m, k);
+    }
+  }
+
+  const LoopShape& shape_;
+  const Piece& piece_;
+  std::size_t size_;
+  std::vector<Weight> weights_;
+  std::vector<Vec3> normals_;
+  std::vector<std::uint32_t> middles_;
+};
+
+struct Chord {
+  std::size_t from = 0;
+  std::size_t to = 0;
+};
+
+/// The shortest allowed chord that leaves enough of the loop on either side.
+std::optional<Chord> dividing_chord(const LoopShape& shape, const Piece& piece) {
+  const std::size_t n = piece.points.size();
+  const std::size_t least = std::max<std::size_t>(2, n / kDivideIntoAtLeast);
+  std::optional<Chord> best;
+  double best_length = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3& a = shape.points[piece.points[i]];
+    for (std::size_t k = i + least; k < n && n - (k - i) >= least; ++k) {
+      const Vec3 d = shape.points[piece.points[k]] - a;
+      const double length = glm::dot(d, d);
+      if (length >= best_length || shape.is_forbidden(piece.points[i], piece.points[k])) continue;
+      best_length = length;
+      best = Chord{i, k};
+    }
+  }
+  return best;
+}
+
+/// The part of a piece from one point to another along the loop, closed by the chord.
+Piece part_of(const Piece& piece, std::size_t from, std::size_t to) {
+  const std::size_t n = piece.points.size();
+  Piece part;
+  for (std::size_t i = from; i != to; i = (i + 1) % n) {
+    part.points.push_back(piece.points[i]);
+    part.edge_normals.push_back(piece.edge_normals[i]);
+  }
+  part.points.push_back(piece.points[to]);
+  part.edge_normals.push_back(Vec3{0.0});
+  return part;
+}
+
+}  // namespace
+
+std::vector<Triangle> triangulate_loop(const LoopShape& shape) {
+  std::vector<Triangle> triangles;
+  if (shape.points.size() < 3) return triangles;
+  Piece whole;
+  for (std::uint32_t i = 0; i < shape.points.size(); ++i)
+    whole.points.push_back(i);
+  whole.edge_normals = shape.edge_normals;
+  std::vector<Piece> open{std::move(whole)};
+  while (!open.empty()) {
+    const Piece piece = std::move(open.back());
+    open.pop_back();
+    if (piece.points.size() > kMaxDirectEdges) {
+      if (const std::optional<Chord> chord = dividing_chord(shape, piece)) {
+        open.push_back(part_of(piece, chord->from, chord->to));
+        open.push_back(part_of(piece, chord->to, chord->from));
+        continue;
+      }
+      return {};
+    }
+    if (!Triangulator(shape, piece).run(triangles)) return {};
+  }
+  return triangles;
+}
+
+}  // namespace rangezip

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/base/geometry.h"
+#include "core/raster/draw_item.h"
+
+namespace rangezip {
+
+/// A closed polygon in space that is to be triangulated.
+struct LoopShape {
+  std::vector<Vec3> points;        ///< edge i runs from point i to point i + 1, the last one back
+  std::vector<Vec3> edge_normals;  ///< unit normal of the face across edge i, or zero: none
+  /// Whether an edge between points i and k is not to be made (there is one already).
+  std::function<bool(std::uint32_t i, std::uint32_t k)> is_forbidden;
+};
+
+/// Triangulates a loop without new points so that the largest angle between neighbouring faces,
+/// those across the loop included, is least, and among equals the area [Barequet, Sharir 1995;
+/// Liepa 2003]. Loops beyond 100 edges are first divided by short chords.
+/// Triangles hold indices of points and run along the loop's edges. Empty if the forbidden edges
+/// leave no triangulation, or for fewer than three points.
+/// Cost: O(n^3) up to 100 edges, O(n^2) to divide longer ones.
+[[nodiscard]] std::vector<Triangle> triangulate_loop(const LoopShape& shape);
+
+}  // namespace rangezip

@@ -1,0 +1,64 @@
+#include "core/finish/point_grid.h"
+
+#include <cmath>
+
+namespace rangezip {
+namespace {
+
+/// Bounds the memory of the grid: cells for each point, and for a start.
+constexpr std::size_t kCellsPerPoint = 4;
+constexpr std::size_t kFreeCells = 4096;
+
+bool contains(const Box& box, const Vec3& p) {
+  return box.lower.x <= p.x && p.x <= box.upper.x && box.lower.y <= p.y && p.y <= box.upper.y &&
+         box.lower.z <= p.z && p.z <= box.upper.z;
+}
+
+}  // namespace
+
+PointGrid::PointGrid(std::span<const Vec3> points, const Box& region, double radius)
+    : origin_(region.lower), radius_(radius) {
+  std::size_t inside = 0;
+  for (const Vec3& p : points)
+    inside += contains(region, p) ? 1 : 0;
+  if (inside == 0) return;
+  const Vec3 size = region.upper - region.lower;
+  double cell = radius;
+  for (;;) {
+    double cells = 1.0;
+    for (int axis = 0; axis < 3; ++axis)
+      cells *= std::floor(size[axis] / cell) + 1.0;
+    if (cells <= static_cast<double>(kCellsPerPoint * inside + kFreeCells)) break;
+    constexpr double kGrowth = 1.25;
+    cell *= kGrowth;
+  }
+  cells_per_unit_ = 1.0 / cell;
+  for (int axis = 0; axis < 3; ++axis) {
+    dims_[static_cast<std::size_t>(axis)] =
+        static_cast<std::size_t>(size[axis] * cells_per_unit_) + 1;
+  }
+  const auto cell_of = [&](const Vec3& p) {
+    std::array<std::size_t, 3> at{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      at[a] = std::min(static_cast<std::size_t>((p[axis] - origin_[axis]) * cells_per_unit_),
+                       dims_[a] - 1);
+    }
+    return (at[2] * dims_[1] + at[1]) * dims_[0] + at[0];
+  };
+  starts_.assign(dims_[0] * dims_[1] * dims_[2] + 1, 0);
+  for (const Vec3& p : points) {
+    if (contains(region, p)) ++starts_[cell_of(p) + 1];
+  }
+  for (std::size_t c = 1; c < starts_.size(); ++c)
+    starts_[c] += starts_[c - 1];
+  positions_.resize(inside);
+  for (const Vec3& p : points) {
+    if (contains(region, p)) positions_[starts_[cell_of(p)]++] = Vec3f(p - origin_);
+  }
+  // Filling moved every start to the next one's place.
+  std::copy_backward(starts_.begin(), starts_.end() - 1, starts_.end());
+  starts_.front() = 0;
+}
+
+}  // namespace rangezip

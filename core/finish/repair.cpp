@@ -1,0 +1,121 @@
+#include "core/finish/repair.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/base/parallel.h"
+#include "core/finish/boundary_loops.h"
+#include "core/finish/bridge_loops.h"
+#include "core/finish/clean_topology.h"
+#include "core/finish/corner_table.h"
+#include "core/finish/hole_choice.h"
+#include "core/finish/self_intersection.h"
+#include "core/finish/verified_fills.h"
+
+namespace rangezip {
+namespace {
+
+using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+void drop_marked(TriangleMesh& mesh, const std::vector<std::uint8_t>& marked) {
+  std::size_t kept = 0;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    if (marked[f] == 0) mesh.triangles[kept++] = mesh.triangles[f];
+  }
+  mesh.triangles.resize(kept);
+}
+
+/// Drops every face that a pair names.
+void cut_pairs(TriangleMesh& mesh, const Pairs& pairs, FinishReport& report) {
+  std::vector<std::uint8_t> marked(mesh.triangles.size(), 0);
+  for (const auto& [i, j] : pairs)
+    marked[i] = marked[j] = 1;
+  const std::size_t before = mesh.triangles.size();
+  drop_marked(mesh, marked);
+  report.self_intersections_cut += before - mesh.triangles.size();
+}
+
+void clean(TriangleMesh& mesh, const FinishOptions& options, FinishReport& report) {
+  clean_topology(mesh);
+  const DroppedComponents dropped = drop_small_components(mesh, options.min_component);
+  report.dropped_components += dropped.components;
+  report.dropped_faces += dropped.faces;
+}
+
+/// Bridges whose faces cross anything are taken back.
+void bridge(TriangleMesh& mesh, const FinishOptions& options, FinishReport& report) {
+  const std::size_t before = mesh.triangles.size();
+  std::size_t bridges = bridge_loops(mesh, options.pixel_size);
+  if (bridges == 0) return;
+  std::vector<std::uint32_t> added(mesh.triangles.size() - before);
+  std::iota(added.begin(), added.end(), static_cast<std::uint32_t>(before));
+  std::vector<std::uint8_t> marked(mesh.triangles.size(), 0);
+  for (const auto& [i, j] : self_intersections(mesh, added)) {
+    const std::size_t first = before + (j - before) / 2 * 2;  // a bridge has two faces
+    if (marked[first] == 0) --bridges;
+    marked[first] = marked[first + 1] = 1;
+  }
+  drop_marked(mesh, marked);
+  report.bridged_loops += bridges;
+}
+
+/// Marks the vertices of loops that could not be filled.
+std::vector<std::uint8_t> fill(TriangleMesh& mesh, const PointGrid& cloud,
+                               const FinishOptions& options, FinishReport& report) {
+  const CornerTable table(mesh.triangles, mesh.positions.size());
+  std::vector<BoundaryLoop> loops = boundary_loops(table);
+  const HoleChoiceOptions choice{options.pixel_size, options.max_hole_perimeter,
+                                 options.narrow_width};
+  std::vector<std::optional<FillShape>> shapes(loops.size());
+  parallel_for(loops.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      shapes[i] = choose_fill(mesh.positions, table, loops[i], cloud, choice);
+    }
+  });
+  std::vector<FillRequest> requests;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (shapes[i]) requests.push_back({std::move(loops[i]), *shapes[i]});
+  }
+  const VerifiedFills fills = fill_verified(mesh, table, requests, options.pixel_size);
+  report.filled_holes += fills.filled_holes;
+  report.filled_faces += fills.filled_faces;
+  std::vector<std::uint8_t> unfilled;
+  if (fills.rejected.empty()) return unfilled;
+  unfilled.assign(mesh.positions.size(), 0);
+  for (const std::size_t i : fills.rejected) {
+    for (const std::uint32_t v : vertices_of(requests[i].loop, table))
+      unfilled[v] = 1;
+  }
+  return unfilled;
+}
+
+/// Drops the faces around marked vertices.
+void widen(TriangleMesh& mesh, const std::vector<std::uint8_t>& vertices) {
+  std::erase_if(mesh.triangles, [&](const Triangle& t) {
+    return std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return vertices[v] != 0; });
+  });
+}
+
+}  // namespace
+
+void repair(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
+            FinishReport& report, const Progress& progress) {
+  clean(mesh, options, report);
+  cut_pairs(mesh, self_intersections(mesh), report);
+  // From here on nothing crosses: faces only go, and what comes is checked.
+  for (int round = 0; round < options.rounds; ++round) {
+    progress.check_stop();
+    clean(mesh, options, report);
+    bridge(mesh, options, report);
+    const std::vector<std::uint8_t> unfilled = fill(mesh, cloud, options, report);
+    if (unfilled.empty() || round + 1 == options.rounds) break;
+    widen(mesh, unfilled);
+  }
+  remove_unused_vertices(mesh);
+}
+
+}  // namespace rangezip

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "core/base/progress.h"
+#include "core/finish/finish.h"
+#include "core/finish/point_grid.h"
+#include "core/mesh/triangle_mesh.h"
+
+namespace rangezip {
+
+/// Rounds of {cut the faces that cross others, bridge cracks between pieces, close holes}. A fill
+/// or bridge that crosses anything is taken back and the hole widened by a ring of faces for the
+/// next round; after the last one it stays open. So the result is always oriented, manifold and
+/// free of self-intersections. Adds to the counts of `report`.
+/// @param cloud evidence for holes (core/finish/hole_choice.h); may be empty
+void repair(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
+            FinishReport& report, const Progress& progress);
+
+}  // namespace rangezip

@@ -1,0 +1,289 @@
+#include "core/finish/self_intersection.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "core/base/parallel.h"
+#include "core/finish/triangle_overlap.h"
+
+namespace rangezip {
+namespace {
+
+using Pair = std::pair<std::uint32_t, std::uint32_t>;
+
+/// Cells measure this many mean sides: fewer, fuller cells repeat less, smaller ones compare less.
+constexpr double kSidesPerCell = 1.5;
+/// Bounds the memory of the grid where a few small triangles lie in a large box.
+constexpr std::size_t kCellsPerTriangle = 16;
+/// A triangle over more cells than this is compared with all others instead of being entered.
+constexpr std::size_t kLargeTriangleCells = 4096;
+constexpr std::size_t kCellsPerBlock = 4096;
+constexpr std::size_t kTrianglesPerBlock = 16384;
+
+struct CellRange {
+  std::array<int, 3> lower{};
+  std::array<int, 3> upper{};  ///< inclusive
+
+  [[nodiscard]] std::size_t count() const {
+    std::size_t n = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      n *= static_cast<std::size_t>(upper[axis] - lower[axis] + 1);
+    }
+    return n;
+  }
+};
+
+class CellGrid {
+ public:
+  CellGrid(const Box& bounds, double cell, std::size_t max_cells) : lower_(bounds.lower) {
+    const Vec3 size = bounds.upper - bounds.lower;
+    const double largest = std::max({size.x, size.y, size.z});
+    // A cell of at least a 1000th of the box keeps the count of cells in range for the loop below.
+    constexpr double kMaxCellsPerAxis = 1000.0;
+    cell = std::max(cell, largest / kMaxCellsPerAxis);
+    if (!(cell > 0.0)) cell = 1.0;
+    for (;;) {
+      std::size_t cells = 1;
+      for (int axis = 0; axis < 3; ++axis) {
+        dims_[static_cast<std::size_t>(axis)] = static_cast<int>(size[axis] / cell) + 1;
+        cells *= static_cast<std::size_t>(dims_[static_cast<std::size_t>(axis)]);
+      }
+      if (cells <= max_cells || cells <= 1) break;
+      constexpr double kGrowth = 1.25;
+      cell *= kGrowth;
+    }
+    per_unit_ = 1.0 / cell;
+  }
+
+  [[nodiscard]] std::size_t cell_count() const {
+    return static_cast<std::size_t>(dims_[0]) * static_cast<std::size_t>(dims_[1]) *
+           static_cast<std::size_t>(dims_[2]);
+  }
+  [[nodiscard]] CellRange range_of(const Box& box) const {
+    CellRange range;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      range.lower[a] = coordinate(box.lower[axis], axis);
+      range.upper[a] = coordinate(box.upper[axis], axis);
+    }
+    return range;
+  }
+  [[nodiscard]] std::size_t index_of(const Vec3& p) const {
+    return index(coordinate(p.x, 0), coordinate(p.y, 1), coordinate(p.z, 2));
+  }
+  template <class Visit>
+  void for_each_cell(const CellRange& range, Visit visit) const {
+    for (int z = range.lower[2]; z <= range.upper[2]; ++z) {
+      for (int y = range.lower[1]; y <= range.upper[1]; ++y) {
+        const std::size_t row = index(0, y, z);
+        for (int x = range.lower[0]; x <= range.upper[0]; ++x) {
+          visit(row + static_cast<std::size_t>(x));
+        }
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] int coordinate(double value, int axis) const {
+    const double scaled = (value - lower_[axis]) * per_unit_;
+    return std::min(static_cast<int>(scaled), dims_[static_cast<std::size_t>(axis)] - 1);
+  }
+  [[nodiscard]] std::size_t index(int x, int y, int z) const {
+    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(dims_[1]) +
+            static_cast<std::size_t>(y)) *
+               static_cast<std::size_t>(dims_[0]) +
+           static_cast<std::size_t>(x);
+  }
+
+  Vec3 lower_;
+  double per_unit_ = 1.0;
+  std::array<int, 3> dims_{1, 1, 1};
+};
+
+bool boxes_meet(const Box& a, const Box& b) {
+  return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y &&
+         b.lower.y <= a.upper.y && a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
+}
+
+/// Box, state and mean side of every triangle.
+class Triangles {
+ public:
+  explicit Triangles(const TriangleMesh& mesh)
+      : mesh_(mesh), boxes_(mesh.triangles.size()), degenerate_(mesh.triangles.size()) {
+    parallel_for(mesh.triangles.size(), kTrianglesPerBlock,
+                 [&](std::size_t begin, std::size_t end) {
+                   for (std::size_t i = begin; i < end; ++i) {
+                     for (const std::uint32_t corner : mesh.triangles[i])
+                       boxes_[i].add(mesh.positions[corner]);
+                     degenerate_[i] = is_degenerate(mesh, mesh.triangles[i]) ? 1 : 0;
+                   }
+                 });
+    for (const Box& box : boxes_)
+      bounds_.add(box);
+  }
+
+  [[nodiscard]] std::size_t size() const { return boxes_.size(); }
+  [[nodiscard]] const Box& box(std::size_t i) const { return boxes_[i]; }
+  [[nodiscard]] const Box& bounds() const { return bounds_; }
+  [[nodiscard]] bool is_degenerate_at(std::size_t i) const { return degenerate_[i] != 0; }
+  [[nodiscard]] bool meet(std::uint32_t i, std::uint32_t j) const {
+    return overlap(mesh_, mesh_.triangles[i], mesh_.triangles[j]);
+  }
+  [[nodiscard]] double mean_side() const {
+    double total = 0.0;
+    for (const Triangle& t : mesh_.triangles) {
+      total += glm::length(mesh_.positions[t[1]] - mesh_.positions[t[0]]);
+    }
+    return total / static_cast<double>(std::max<std::size_t>(1, size()));
+  }
+
+ private:
+  const TriangleMesh& mesh_;
+  std::vector<Box> boxes_;
+  std::vector<std::uint8_t> degenerate_;
+  Box bounds_;
+};
+
+/// Triangles by cell: those of cell c are entries[starts[c]] up to entries[starts[c + 1]].
+struct CellLists {
+  std::vector<std::uint32_t> starts;
+  std::vector<std::uint32_t> entries;
+  std::vector<std::uint32_t> large;  ///< not entered
+};
+
+/// Enters every triangle into its cells by a counting sort; with `wanted` only into marked cells.
+CellLists sort_into_cells(const Triangles& triangles, const CellGrid& grid,
+                          std::span<const std::uint8_t> wanted) {
+  CellLists lists;
+  lists.starts.assign(grid.cell_count() + 1, 0);
+  const auto for_each_entry = [&](std::uint32_t i, auto visit) {
+    grid.for_each_cell(grid.range_of(triangles.box(i)), [&](std::size_t cell) {
+      if (wanted.empty() || wanted[cell] != 0) visit(cell);
+    });
+  };
+  std::vector<std::uint32_t> entered;
+  entered.reserve(triangles.size());
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    if (triangles.is_degenerate_at(i)) continue;
+    if (grid.range_of(triangles.box(i)).count() > kLargeTriangleCells) {
+      lists.large.push_back(i);
+      continue;
+    }
+    entered.push_back(i);
+    for_each_entry(i, [&](std::size_t cell) { ++lists.starts[cell + 1]; });
+  }
+  for (std::size_t c = 1; c < lists.starts.size(); ++c)
+    lists.starts[c] += lists.starts[c - 1];
+  lists.entries.resize(lists.starts.back());
+  for (const std::uint32_t i : entered) {
+    for_each_entry(i, [&](std::size_t cell) { lists.entries[lists.starts[cell]++] = i; });
+  }
+  // Filling moved every start to the next one's place.
+  std::copy_backward(lists.starts.begin(), lists.starts.end() - 1, lists.starts.end());
+  lists.starts.front() = 0;
+  return lists;
+}
+
+/// Pairs of one cell; a pair that shares several cells is compared in the one that holds the
+/// lower corner of their common box.
+void collect_cell(const Triangles& triangles, const CellGrid& grid,
+                  std::span<const std::uint32_t> entries, std::size_t cell,
+                  std::span<const std::uint8_t> changed, std::vector<Pair>& pairs) {
+  for (std::size_t k = 1; k < entries.size(); ++k) {
+    const std::uint32_t j = entries[k];
+    const Box& second = triangles.box(j);
+    for (std::size_t m = 0; m < k; ++m) {
+      const std::uint32_t i = entries[m];  // < j: entries rise within a cell
+      const Box& first = triangles.box(i);
+      if (!boxes_meet(first, second)) continue;
+      if (!changed.empty() && changed[i] == 0 && changed[j] == 0) continue;
+      if (grid.index_of(glm::max(first.lower, second.lower)) != cell) continue;
+      if (triangles.meet(i, j)) pairs.emplace_back(i, j);
+    }
+  }
+}
+
+void append_blocks(std::vector<std::vector<Pair>>& blocks, std::vector<Pair>& pairs) {
+  for (const std::vector<Pair>& block : blocks)
+    pairs.insert(pairs.end(), block.begin(), block.end());
+}
+
+void collect_cells(const Triangles& triangles, const CellGrid& grid, const CellLists& lists,
+                   std::span<const std::uint8_t> changed, std::vector<Pair>& pairs) {
+  std::vector<std::vector<Pair>> blocks((grid.cell_count() + kCellsPerBlock - 1) / kCellsPerBlock);
+  parallel_for(grid.cell_count(), kCellsPerBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t cell = begin; cell < end; ++cell) {
+      const std::size_t count = lists.starts[cell + 1] - lists.starts[cell];
+      if (count < 2) continue;
+      collect_cell(triangles, grid, {&lists.entries[lists.starts[cell]], count}, cell, changed,
+                   blocks[begin / kCellsPerBlock]);
+    }
+  });
+  append_blocks(blocks, pairs);
+}
+
+void collect_large(const Triangles& triangles, std::span<const std::uint32_t> large,
+                   std::span<const std::uint8_t> changed, std::vector<Pair>& pairs) {
+  if (large.empty()) return;
+  std::vector<std::uint8_t> is_large(triangles.size(), 0);
+  for (const std::uint32_t i : large)
+    is_large[i] = 1;
+  std::vector<std::vector<Pair>> blocks(large.size());
+  parallel_for(large.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::uint32_t i = large[k];
+      for (std::uint32_t j = 0; j < triangles.size(); ++j) {
+        if (j == i || triangles.is_degenerate_at(j) || (is_large[j] != 0 && j < i)) continue;
+        if (!boxes_meet(triangles.box(i), triangles.box(j))) continue;
+        if (!changed.empty() && changed[i] == 0 && changed[j] == 0) continue;
+        if (triangles.meet(i, j)) blocks[k].emplace_back(std::min(i, j), std::max(i, j));
+      }
+    }
+  });
+  append_blocks(blocks, pairs);
+}
+
+/// `changed` flags triangles, or is empty: all.
+std::vector<Pair> find_pairs(const TriangleMesh& mesh, std::span<const std::uint8_t> changed) {
+  std::vector<Pair> pairs;
+  if (mesh.triangles.empty()) return pairs;
+  const Triangles triangles(mesh);
+  const std::size_t max_cells = kCellsPerTriangle * triangles.size();
+  const CellGrid grid(triangles.bounds(), kSidesPerCell * triangles.mean_side(), max_cells);
+  std::vector<std::uint8_t> wanted;
+  if (!changed.empty()) {
+    wanted.assign(grid.cell_count(), 0);
+    for (std::size_t i = 0; i < changed.size(); ++i) {
+      if (changed[i] == 0) continue;
+      grid.for_each_cell(grid.range_of(triangles.box(i)), [&](std::size_t c) { wanted[c] = 1; });
+    }
+  }
+  const CellLists lists = sort_into_cells(triangles, grid, wanted);
+  collect_cells(triangles, grid, lists, changed, pairs);
+  collect_large(triangles, lists.large, changed, pairs);
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    const bool asked = changed.empty() || changed[i] != 0;
+    if (asked && triangles.is_degenerate_at(i)) pairs.emplace_back(i, i);
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+}  // namespace
+
+std::vector<Pair> self_intersections(const TriangleMesh& mesh) {
+  return find_pairs(mesh, {});
+}
+
+std::vector<Pair> self_intersections(const TriangleMesh& mesh,
+                                     std::span<const std::uint32_t> changed) {
+  if (changed.empty()) return {};
+  std::vector<std::uint8_t> flags(mesh.triangles.size(), 0);
+  for (const std::uint32_t i : changed)
+    flags[i] = 1;
+  return find_pairs(mesh, flags);
+}
+
+}  // namespace rangezip

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/finish/hole_filling.h"
+
+namespace rangezip {
+
+/// A loop to be closed, and how.
+struct FillRequest {
+  BoundaryLoop loop;
+  FillShape shape = FillShape::smooth;
+};
+
+struct VerifiedFills {
+  std::size_t filled_holes = 0;
+  std::size_t filled_faces = 0;
+  std::vector<std::size_t> rejected;  ///< indices of requests that were not filled
+};
+
+/// Fills loops and keeps the fills whose faces neither cross the mesh, nor each other, nor have no
+/// area; where a refined fill fails a coarse one is tried. A mesh without self-intersections stays
+/// without. Of two fills that cross, the earlier one stays.
+/// @pre `table` is that of `mesh` (and no longer after).
+VerifiedFills fill_verified(TriangleMesh& mesh, const CornerTable& table,
+                            const std::vector<FillRequest>& requests, double edge_length);
+
+}  // namespace rangezip

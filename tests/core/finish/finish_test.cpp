@@ -1,0 +1,214 @@
+#include "core/finish/finish.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stop_token>
+
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+#include "core/finish/bridge_loops.h"
+#include "core/finish/self_intersection.h"
+#include "core/mesh/mesh_report.h"
+#include "tests/core/finish/shapes.h"
+
+namespace rangezip {
+namespace {
+
+using testing::uniform;
+
+/// A sphere of about edge length h whose faces are torn: holes, a crack, and crumpled places.
+TriangleMesh torn_sphere(int n, std::uint64_t seed) {
+  TriangleMesh mesh = testing::sphere(n);
+  std::mt19937_64 engine(seed);
+  const double h = 2.0 / n;
+  std::vector<Vec3> holes;
+  for (int i = 0; i < 6; ++i) {
+    holes.push_back(glm::normalize(
+        Vec3(uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1))));
+  }
+  for (Vec3& p : mesh.positions) {
+    if (glm::length(p - holes[0]) < 4.0 * h || glm::length(p - holes[1]) < 2.0 * h) {
+      p += 2.0 * h * Vec3(uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1));
+    }
+  }
+  testing::cut_where(mesh, [&](const Vec3& p) {
+    if (std::abs(p.z) < 0.6 * h && p.x > 0.2) return true;
+    for (std::size_t i = 2; i < holes.size(); ++i) {
+      if (glm::length(p - holes[i]) < static_cast<double>(i) * h) return true;
+    }
+    return false;
+  });
+  return mesh;
+}
+
+std::vector<Vec3> sphere_points(std::size_t count, std::uint64_t seed) {
+  std::mt19937_64 engine(seed);
+  std::vector<Vec3> points;
+  while (points.size() < count) {
+    const Vec3 p(uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1));
+    const double length = glm::length(p);
+    if (length > 0.1 && length < 1.0) points.push_back(p / length);
+  }
+  return points;
+}
+
+FinishOptions options_for(int n, FinishMethod method) {
+  FinishOptions options;
+  options.method = method;
+  options.pixel_size = 2.0 / n;
+  return options;
+}
+
+void require_clean(const TriangleMesh& mesh) {
+  const MeshReport report = report_mesh(mesh);
+  REQUIRE(report.is_manifold());
+  REQUIRE(report.degenerate_faces == 0);
+  REQUIRE(report.vertices == mesh.positions.size());
+  REQUIRE_NOTHROW(check_mesh(mesh));
+  REQUIRE(self_intersections(mesh).empty());
+}
+
+TEST_CASE("a torn and crumpled sphere becomes closed and free of self-intersections") {
+  const std::uint64_t seed = GENERATE(1U, 2U, 3U, 4U, 5U);
+  CAPTURE(seed);
+  constexpr int kN = 32;
+  const TriangleMesh torn = torn_sphere(kN, seed);
+  REQUIRE_FALSE(self_intersections(torn).empty());
+  const FinishResult result =
+      finish(torn, sphere_points(40000, seed), options_for(kN, FinishMethod::fast));
+  require_clean(result.mesh);
+  REQUIRE(report_mesh(result.mesh).euler == 2);
+  REQUIRE(report_mesh(result.mesh).components == 1);
+  REQUIRE(result.report.open_loops == 0);
+  REQUIRE(result.report.self_intersections_cut > 0);
+}
+
+TEST_CASE("a second finish changes nothing that the first one closed") {
+  constexpr int kN = 32;
+  const std::vector<Vec3> cloud = sphere_points(40000, 1);
+  const FinishOptions options = options_for(kN, FinishMethod::fast);
+  const FinishResult once = finish(torn_sphere(kN, 1), cloud, options);
+  const FinishResult twice = finish(once.mesh, cloud, options);
+  REQUIRE(twice.mesh == once.mesh);
+}
+
+TEST_CASE("the border of an open surface stays open") {
+  constexpr int kN = 40;
+  const double h = 2.0 / kN;
+  TriangleMesh mesh = testing::sphere(kN);
+  SECTION("a hemisphere") {
+    testing::cut_where(mesh, [](const Vec3& p) { return p.z > 0.0; });
+  }
+  SECTION("the end of a tube") {
+    for (Vec3& p : mesh.positions)
+      p = Vec3(4.0 * h * p.x, 4.0 * h * p.y, p.z);
+    testing::cut_where(mesh, [](const Vec3& p) { return p.z > 0.0; });
+  }
+  const std::size_t faces = mesh.triangles.size();
+  FinishOptions options = options_for(kN, FinishMethod::fast);
+  options.min_component = 10;
+  const FinishResult result = finish(mesh, {}, options);
+  require_clean(result.mesh);
+  REQUIRE(result.report.open_loops == 1);
+  REQUIRE(result.mesh.triangles.size() >= faces - faces / 50);
+}
+
+TEST_CASE("a large hole is closed if the cloud has points in it, and stays otherwise") {
+  constexpr int kN = 40;
+  TriangleMesh mesh = testing::sphere(kN);
+  testing::cut_where(mesh, [](const Vec3& p) { return p.z > 0.85; });  // about 66 h around
+  const std::vector<Vec3> cloud = sphere_points(60000, 3);
+  std::vector<Vec3> cloud_with_hole = cloud;
+  std::erase_if(cloud_with_hole, [](const Vec3& p) { return p.z > 0.85; });
+  const FinishOptions options = options_for(kN, FinishMethod::fast);
+  REQUIRE(report_mesh(finish(mesh, cloud, options).mesh).euler == 2);
+  REQUIRE(report_mesh(finish(mesh, cloud_with_hole, options).mesh).euler == 1);
+}
+
+TEST_CASE("a crack between two pieces is bridged and closed") {
+  constexpr int kN = 32;
+  TriangleMesh mesh = testing::sphere(kN);
+  testing::cut_where(mesh, [](const Vec3& p) { return std::abs(p.z) < 0.01; });
+  REQUIRE(report_mesh(mesh).components == 2);
+  const FinishResult result = finish(mesh, {}, options_for(kN, FinishMethod::fast));
+  require_clean(result.mesh);
+  REQUIRE(result.report.bridged_loops == 1);
+  REQUIRE(report_mesh(result.mesh).components == 1);
+  REQUIRE(report_mesh(result.mesh).euler == 2);
+}
+
+TEST_CASE("loops of one component are never joined to a handle") {
+  // A thin slab with a hole in each face, opposite to each other and one pixel apart.
+  constexpr int kN = 32;
+  TriangleMesh mesh = testing::cube(kN);
+  for (Vec3& p : mesh.positions)
+    p.z *= 0.03;
+  testing::cut_where(mesh, [](const Vec3& p) { return std::hypot(p.x, p.y) < 0.3; });
+  REQUIRE(bridge_loops(mesh, 2.0 / kN) == 0);
+  const FinishResult result = finish(mesh, {}, options_for(kN, FinishMethod::fast));
+  REQUIRE(report_mesh(result.mesh).euler == 2);
+}
+
+TEST_CASE("small pieces are dropped and counted") {
+  TriangleMesh mesh = testing::sphere(16);
+  const TriangleMesh crumb = testing::cube(2);
+  const auto shift = static_cast<std::uint32_t>(mesh.positions.size());
+  for (const Vec3& p : crumb.positions)
+    mesh.positions.push_back(0.1 * p + Vec3(3, 0, 0));
+  for (const Triangle& t : crumb.triangles) {
+    mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+  }
+  const FinishResult result = finish(mesh, {}, options_for(16, FinishMethod::fast));
+  REQUIRE(result.mesh == testing::sphere(16));
+  REQUIRE(result.report.dropped_components == 1);
+  REQUIRE(result.report.dropped_faces == crumb.triangles.size());
+}
+
+TEST_CASE("even random crumpling ends without self-intersections") {
+  const std::uint64_t seed = GENERATE(1U, 2U, 3U);
+  CAPTURE(seed);
+  std::mt19937_64 engine(seed);
+  TriangleMesh mesh = testing::sphere(24);
+  for (Vec3& p : mesh.positions) {
+    p += 0.1 * Vec3(uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1));
+  }
+  FinishOptions options = options_for(24, FinishMethod::fast);
+  options.min_component = 4;
+  require_clean(finish(mesh, {}, options).mesh);
+}
+
+TEST_CASE("finish gives the same bits for any number of threads") {
+  const TriangleMesh torn = torn_sphere(32, 7);
+  const std::vector<Vec3> cloud = sphere_points(40000, 7);
+  const auto method = GENERATE(FinishMethod::fast, FinishMethod::full);
+  const FinishOptions options = options_for(32, method);
+  TriangleMesh one, four;
+  run_with_threads(1, [&] { one = finish(torn, cloud, options).mesh; });
+  run_with_threads(4, [&] { four = finish(torn, cloud, options).mesh; });
+  REQUIRE(one == four);
+}
+
+TEST_CASE("finish refuses a pixel size that is not positive and finite") {
+  FinishOptions options;
+  options.pixel_size = GENERATE(0.0, -1.0, std::numeric_limits<double>::infinity(),
+                                std::numeric_limits<double>::quiet_NaN());
+  REQUIRE_THROWS_AS(finish(testing::sphere(4), {}, options), InvalidArgument);
+}
+
+TEST_CASE("finish stops when asked to") {
+  std::stop_source source;
+  source.request_stop();
+  Progress progress;
+  progress.stop = source.get_token();
+  REQUIRE_THROWS_AS(finish(testing::sphere(8), {}, options_for(8, FinishMethod::fast), progress),
+                    Cancelled);
+}
+
+TEST_CASE("finish of nothing is nothing") {
+  REQUIRE(finish({}, {}, options_for(8, FinishMethod::full)).mesh.empty());
+}
+
+}  // namespace
+}  // namespace rangezip
