@@ -7,13 +7,14 @@
 #include "core/finish/boundary_loops.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/point_grid.h"
+#include "core/finish/relax.h"
 #include "core/finish/repair.h"
 
 namespace rangezip {
 namespace {
 
-/// In h: the largest radius in which points around a vertex are looked for.
-constexpr double kSearchRadius = 1.3;
+/// In h: about half the radius in which points around a vertex are looked for.
+constexpr double kPointCell = 0.7;
 /// In h: how far beyond the mesh points may matter.
 constexpr double kRegionMargin = 4.0;
 
@@ -40,8 +41,14 @@ FinishResult finish(TriangleMesh mesh, std::span<const Vec3> cloud, const Finish
   if (mesh.empty()) return result;
   progress.at("finish", 0.0);
   const double h = options.pixel_size;
-  const PointGrid points(cloud, region_of(mesh, kRegionMargin * h), kSearchRadius * h);
+  const PointGrid points(cloud, region_of(mesh, kRegionMargin * h), kPointCell * h);
   repair(mesh, points, options, result.report, progress);
+  if (options.method == FinishMethod::full) {
+    const RelaxReport relaxed = relax(mesh, points, {h, options.relaxations}, progress);
+    result.report.collapsed_edges = relaxed.collapsed_edges;
+    result.report.flipped_edges = relaxed.flipped_edges;
+    repair(mesh, points, options, result.report, progress);
+  }
   const CornerTable table(mesh.triangles, mesh.positions.size());
   result.report.open_loops = boundary_loops(table).size();
   result.mesh = std::move(mesh);

@@ -91,7 +91,7 @@ bool has_points_inside(const LoopGeometry& loop, const HoleFill& fill, const Poi
     if (squared_distance_to(loop.points, p) < margin * margin) continue;
     ++samples;
     bool found = false;
-    cloud.for_each_near(p,
+    cloud.for_each_near(p, radius,
                         [&](const Vec3& d) { found = found || glm::dot(d, d) < radius * radius; });
     supported += found ? 1 : 0;
   }

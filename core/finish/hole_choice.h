@@ -23,7 +23,7 @@ struct HoleChoiceOptions {
 /// - others up to max_hole_perimeter are closed, but not a round rim where the surface ends without
 ///   leading into the hole, as at the end of a tube.
 /// Loops of more than 6000 edges always stay.
-/// @param cloud points of the cloud, with a radius of at least h; may be empty: no evidence
+/// @param cloud points of the cloud; may be empty: no evidence
 [[nodiscard]] std::optional<FillShape> choose_fill(const std::vector<Vec3>& positions,
                                                    const CornerTable& table,
                                                    const BoundaryLoop& loop, const PointGrid& cloud,

@@ -16,14 +16,13 @@ bool contains(const Box& box, const Vec3& p) {
 
 }  // namespace
 
-PointGrid::PointGrid(std::span<const Vec3> points, const Box& region, double radius)
-    : origin_(region.lower), radius_(radius) {
+PointGrid::PointGrid(std::span<const Vec3> points, const Box& region, double cell)
+    : origin_(region.lower) {
   std::size_t inside = 0;
   for (const Vec3& p : points)
     inside += contains(region, p) ? 1 : 0;
   if (inside == 0) return;
   const Vec3 size = region.upper - region.lower;
-  double cell = radius;
   for (;;) {
     double cells = 1.0;
     for (int axis = 0; axis < 3; ++axis)

@@ -11,28 +11,27 @@
 
 namespace rangezip {
 
-/// Points sorted into the cubes of a uniform grid, for visiting all within a radius of a place.
+/// Points sorted into the cubes of a uniform grid, for visiting all around a place.
 /// Stored as floats relative to a corner of the region: 12 bytes a point, one pass to sort.
 class PointGrid {
  public:
   /// @param region points outside of it are left out
-  /// @param radius of later visits at most, model units; positive
-  PointGrid(std::span<const Vec3> points, const Box& region, double radius);
+  /// @param cell side of the cubes, model units, positive; about half the usual radius is fast
+  PointGrid(std::span<const Vec3> points, const Box& region, double cell);
 
   [[nodiscard]] bool empty() const noexcept { return positions_.empty(); }
-  [[nodiscard]] double radius() const noexcept { return radius_; }
 
   /// Calls visit(offset) with (point - place) for every point within `radius` of the place and some
   /// farther ones; always in the same order.
   template <class Visit>
-  void for_each_near(const Vec3& place, Visit visit) const {
+  void for_each_near(const Vec3& place, double radius, Visit visit) const {
     if (empty()) return;
     const Vec3 local = place - origin_;
     std::array<std::size_t, 3> lower{}, upper{};
     for (int axis = 0; axis < 3; ++axis) {
       const auto a = static_cast<std::size_t>(axis);
-      const double low = (local[axis] - radius_) * cells_per_unit_;
-      const double high = (local[axis] + radius_) * cells_per_unit_;
+      const double low = (local[axis] - radius) * cells_per_unit_;
+      const double high = (local[axis] + radius) * cells_per_unit_;
       if (!(high >= 0.0) || !(low < static_cast<double>(dims_[a]))) return;
       lower[a] = low > 0.0 ? static_cast<std::size_t>(low) : 0;
       upper[a] = std::min(static_cast<std::size_t>(high), dims_[a] - 1);
@@ -50,7 +49,6 @@ class PointGrid {
 
  private:
   Vec3 origin_;
-  double radius_;
   double cells_per_unit_ = 1.0;
   std::array<std::size_t, 3> dims_{1, 1, 1};
   std::vector<std::uint32_t> starts_;  // of each cell in positions_, x fastest
