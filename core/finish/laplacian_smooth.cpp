@@ -1,4 +1,4 @@
-#include "core/finish/smooth.h"
+#include "core/finish/laplacian_smooth.h"
 
 #include <string>
 
