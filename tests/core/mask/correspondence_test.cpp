@@ -1,0 +1,159 @@
+#include "core/mask/correspondence.h"
+
+#include <limits>
+
+#include <catch2/catch.hpp>
+
+#include "core/base/error.h"
+#include "raster_cpu/cpu_rasterizer.h"
+#include "tests/support/images.h"
+
+namespace rangezip {
+namespace {
+
+/// Two squares of four triangles each, seen by the parallel view: the front one at depth `front`,
+/// the other ten pixels behind. Faces 0..1 and 2..3; both face the viewer.
+TriangleMesh two_sheets(double front) {
+  TriangleMesh mesh;
+  for (const double depth : {front, front + 10.0}) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(),
+                          {{-9, -9, -depth}, {9, -9, -depth}, {9, 9, -depth}, {-9, 9, -depth}});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.triangles.push_back({first, first + 2, first + 3});
+  }
+  return mesh;
+}
+
+TriangleMesh turned_over(TriangleMesh mesh) {
+  for (Triangle& t : mesh.triangles)
+    std::swap(t[1], t[2]);
+  return mesh;
+}
+
+const View kView = images::parallel_view({20, 20});
+
+RangeImage level_image(double depth) {
+  return images::image_of(kView, [=](Pixel) { return depth; });
+}
+
+Correspondence find(const RangeImage& image, const TriangleMesh& mesh,
+                    const CorrespondenceOptions& options = {}) {
+  CpuRasterizer rasterizer;
+  return find_correspondence(rasterizer, image, estimate_slopes(image), mesh, options);
+}
+
+TEST_CASE("the depth band finds the sheet that a sample lies on, also behind another", "[mask]") {
+  const TriangleMesh mesh = two_sheets(20.0);
+  const auto sheet_of = [&](double depth) {
+    const Correspondence found = find(level_image(depth), mesh);
+    CHECK(images::count_of(found.from_behind) == 0);
+    std::vector<PrimitiveId> faces;
+    for (const PrimitiveId face : found.face.pixels()) {
+      if (face != kNoPrimitive) faces.push_back(face);
+    }
+    if (faces.empty()) return -1;
+    CHECK(faces.size() == 18 * 18);
+    const auto [low, high] = std::minmax_element(faces.begin(), faces.end());
+    CHECK(*high - *low == 1);
+    return static_cast<int>(*low / 2);
+  };
+  CHECK(sheet_of(20.0) == 0);
+  CHECK(sheet_of(21.4) == 0);  // within 1.5 pixel sides
+  CHECK(sheet_of(18.6) == 0);
+  CHECK(sheet_of(21.6) == -1);
+  CHECK(sheet_of(30.0) == 1);  // hidden by the first sheet, found all the same
+  CHECK(sheet_of(25.0) == -1);
+}
+
+TEST_CASE("the depth band is wider on slopes", "[mask]") {
+  // Slope 2 stretches 1.5 pixel sides to 3.35.
+  const TriangleMesh mesh = two_sheets(20.0);
+  const auto matched = [&](double middle) {
+    const RangeImage image =
+        images::image_of(kView, [=](Pixel p) { return middle + 2.0 * (p.x - 9.5); });
+    std::size_t count = 0;
+    const Correspondence found = find(image, mesh);
+    for (const PrimitiveId face : found.face.pixels()) {
+      count += face == 0 || face == 1 ? 1 : 0;
+    }
+    return count;
+  };
+  // |2 (x - 9.5)| <= 3.354 holds for x = 8..11, 18 rows each.
+  CHECK(matched(20.0) == 4 * 18);
+}
+
+TEST_CASE("a sample on the inside of a sheet is told apart", "[mask]") {
+  const TriangleMesh mesh = turned_over(two_sheets(20.0));
+  const Correspondence found = find(level_image(20.4), mesh);
+  CHECK(images::count_of(found.from_behind) == 18 * 18);
+  for (const PrimitiveId face : found.face.pixels())
+    REQUIRE(face == kNoPrimitive);
+  CHECK(images::count_of(find(level_image(20.7), mesh).from_behind) == 0);  // beyond 0.6
+  CHECK(images::count_of(find(level_image(20.4), mesh, {.back_band = 0.0}).from_behind) == 0);
+}
+
+TEST_CASE("pixels without a sample correspond to nothing", "[mask]") {
+  RangeImage image = level_image(20.0);
+  image[{10, 10}] = kNoSample;
+  for (const auto method : {CorrespondenceMethod::depth_band, CorrespondenceMethod::id_buffer}) {
+    const Correspondence found = find(image, two_sheets(20.0), {.method = method});
+    CHECK(found.face[{10, 10}] == kNoPrimitive);
+    CHECK(found.face[{11, 10}] != kNoPrimitive);
+    CHECK(found.face[{0, 0}] == kNoPrimitive);  // outside of the mesh
+  }
+  const Correspondence none = find(image, TriangleMesh{});
+  CHECK(none.face[{11, 10}] == kNoPrimitive);
+  CHECK(none.from_behind.extent() == image.extent());
+}
+
+TEST_CASE("the ID buffer finds the nearest face of a sphere at every sample", "[mask]") {
+  TriangleMesh mesh = shapes::to_mesh(shapes::sphere(8.0, 24));
+  for (Vec3& p : mesh.positions)
+    p.z -= 30.0;
+  // Samples of a slightly smaller, shifted sphere: the drawn face is often not the nearest one.
+  const RangeImage image = images::image_of(kView, [](Pixel p) {
+    const double x = p.x - 9.5 - 0.3;
+    const double y = p.y - 9.5;
+    const double squared = 7.6 * 7.6 - x * x - y * y;
+    return squared > 0.0 ? 30.0 - std::sqrt(squared) : kNoSample;
+  });
+  const Correspondence found = find(image, mesh, {.method = CorrespondenceMethod::id_buffer});
+  int samples = 0;
+  for (int y = 0; y < 20; ++y) {
+    for (int x = 0; x < 20; ++x) {
+      if (!image.has_sample({x, y})) continue;
+      ++samples;
+      const Vec3 point = image.position({x, y});
+      const auto distance = [&](const Triangle& t) {
+        return glm::length(closest_point_on_triangle(point, mesh.positions[t[0]],
+                                                     mesh.positions[t[1]], mesh.positions[t[2]]) -
+                           point);
+      };
+      double best = std::numeric_limits<double>::infinity();
+      for (const Triangle& t : mesh.triangles)
+        best = std::min(best, distance(t));
+      const PrimitiveId face = found.face[{x, y}];
+      REQUIRE(face != kNoPrimitive);
+      // From inside of a sphere distance has a single minimum on the near side up to the facets'
+      // own flatness, 8 (1 - cos(pi / 48)) = 0.017.
+      REQUIRE(distance(mesh.triangles[face]) <= best + 0.017);
+    }
+  }
+  CHECK(samples > 170);
+}
+
+TEST_CASE("find_correspondence refuses bands that are none", "[mask]") {
+  const RangeImage image = level_image(20.0);
+  const TriangleMesh mesh = two_sheets(20.0);
+  CHECK_THROWS_AS(find(image, mesh, {.band = 0.0}), InvalidArgument);
+  CHECK_THROWS_AS(find(image, mesh, {.back_band = -0.1}), InvalidArgument);
+  CHECK_THROWS_AS(find(image, mesh, {.band = std::numeric_limits<double>::infinity()}),
+                  InvalidArgument);
+  CpuRasterizer rasterizer;
+  CHECK_THROWS_AS(find_correspondence(rasterizer, image, SlopeImage(Extent{2, 2}), mesh),
+                  InvalidArgument);
+}
+
+}  // namespace
+}  // namespace rangezip
