@@ -1,0 +1,229 @@
+#!/usr/bin/python3
+"""Meshes the reference inputs with `rangezip mesh` and prints what was reached as a Markdown table.
+
+    run.py [--program PATH] [--shared DIR] [--out DIR] [--threads N] [--only NAME]... [--list]
+
+See README.md beside this file. Exit code: 0 if every figure is reached, 1 if one is missed, 2 if
+something needed is not there.
+"""
+import argparse
+import json
+import os
+import subprocess
+import sys
+from dataclasses import dataclass, field
+
+import numpy as np
+
+import boundary_check
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.normpath(os.path.join(HERE, '../..'))
+
+
+@dataclass
+class Bound:
+    """A figure of the judgement and what it must be."""
+    figure: str
+    relation: str       # '==', '<=' or '>='
+    limit: float
+    percent: bool = False
+
+    def holds(self, value):
+        if value is None:
+            return False
+        return {'==': value == self.limit, '<=': value <= self.limit, '>=': value >= self.limit}[self.relation]
+
+    def text(self, value):
+        if value is None:
+            return 'none'
+        if self.percent:
+            return '%.4g %%' % (100 * value)
+        return '%.4g' % value if isinstance(value, float) else str(value)
+
+
+@dataclass
+class Sampled:
+    """A cloud drawn from a mesh by shared/eval/sample.py."""
+    mesh: str
+    points: int
+    seed: int
+
+
+@dataclass
+class Case:
+    name: str
+    source: object      # a path below shared/data, or Sampled
+    truth: str = None   # a path below shared/data
+    cloud: bool = True  # judge against the input as a cloud
+    bounds: list = field(default_factory=list)
+
+
+CLEAN = [Bound('components', '==', 1), Bound('nonmanifold_edges', '==', 0),
+         Bound('nonmanifold_vertices', '==', 0), Bound('self_intersecting_pairs', '==', 0),
+         Bound('misoriented_edges', '==', 0)]
+CLOSED = [Bound('boundary_edges', '==', 0)]
+
+
+def cost(seconds, megabytes):
+    return [Bound('cpu_seconds', '<=', seconds), Bound('peak_megabytes', '<=', megabytes)]
+
+
+CASES = [
+    Case('bunny', 'range/bunny/bun.conf', bounds=CLEAN + [Bound('cloud_within_05', '>=', 0.995)]),
+    Case('dragon', 'range/dragon_stand_merged.ply',
+         bounds=CLEAN + [Bound('cloud_within_05', '>=', 0.995), Bound('long_loops', '<=', 5),
+                         Bound('points_beyond', '==', 0)]),
+    Case('rocker-arm scan', 'cloud/rocker-arm_virtual_scan.xyz', truth='mesh/rocker-arm.obj', cloud=False,
+         bounds=CLEAN + CLOSED + [Bound('genus', '==', 1), Bound('accuracy_mean', '<=', 0.0003, True),
+                                  Bound('accuracy_p95', '<=', 0.00085, True)]),
+    Case('rocker-arm polygons', 'mesh/rocker-arm.obj', truth='mesh/rocker-arm.obj', cloud=False,
+         bounds=CLEAN + CLOSED + [Bound('genus', '==', 1), Bound('accuracy_mean', '<=', 0.0001, True)]),
+    Case('fandisk polygons', 'mesh/fandisk.obj', truth='mesh/fandisk.obj', cloud=False,
+         bounds=CLEAN + CLOSED + [Bound('genus', '==', 0), Bound('accuracy_mean', '<=', 0.0001, True)]),
+    Case('club', 'seed/club_sampled_16586.xyz', truth='seed/club_mesh.ply',
+         bounds=CLEAN + [Bound('long_loops', '==', 1), Bound('cloud_within_05', '>=', 0.98)]),
+    Case('mannequin', 'seed/mannequin_sampled_12772.xyz', truth='seed/mannequin_mesh.off',
+         bounds=CLEAN + [Bound('long_loops', '==', 1), Bound('cloud_within_05', '>=', 0.98)]),
+    Case('igea 400 K', Sampled('mesh/igea.ply', 400_000, 3), bounds=CLEAN + CLOSED + cost(6, 300)),
+    Case('Laurana 400 K', Sampled('mesh/Laurana50k.ply', 400_000, 1), bounds=CLEAN + cost(6, 300)),
+    Case('igea 1.4 M', Sampled('mesh/igea.ply', 1_400_000, 5), bounds=CLEAN + CLOSED + cost(20, 700)),
+    Case('dragon 1.4 M', Sampled('range/dragon_vrip_res2.ply', 1_400_000, 6), bounds=CLEAN + cost(20, 700)),
+]
+
+# Judged in every case, also where nothing is demanded of them.
+ALSO_SHOWN = ['faces', 'genus', 'boundary_loops', 'accuracy_mean', 'accuracy_p95', 'completeness_p95',
+              'cloud_within_05', 'min_angle_lt10', 'cpu_seconds', 'peak_megabytes', 'long_loops']
+
+
+class Bench:
+    def __init__(self, args):
+        self.args = args
+        self.data = os.path.join(args.shared, 'data')
+        self.judge = os.path.join(args.shared, 'eval', 'mesh_quality.py')
+        os.makedirs(args.out, exist_ok=True)
+
+    def path(self, name, suffix):
+        return os.path.join(self.args.out, name.replace(' ', '_').replace('.', '') + suffix)
+
+    def prepare(self, case):
+        """The input file, and the truth and the cloud to judge by (or None)."""
+        if isinstance(case.source, Sampled):
+            cloud, truth = self.path(case.name, '_in.ply'), self.path(case.name, '_truth.ply')
+            if not (os.path.exists(cloud) and os.path.exists(truth)):
+                subprocess.run([sys.executable, os.path.join(self.args.shared, 'eval', 'sample.py'),
+                                os.path.join(self.data, case.source.mesh), cloud, '--points',
+                                str(case.source.points), '--seed', str(case.source.seed), '--truth', truth],
+                               check=True)
+            return cloud, truth, cloud
+        source = os.path.join(self.data, case.source)
+        truth = os.path.join(self.data, case.truth) if case.truth else None
+        cloud = source if case.cloud else None
+        if source.endswith('.conf'):
+            cloud = self.path(case.name, '_cloud.npy')
+            np.save(cloud, placed_scans(source))
+        return source, truth, cloud
+
+    def mesh(self, case, source):
+        """Runs the program; its cost, its report, the mesh's path and the command as text."""
+        out, report = self.path(case.name, '.ply'), self.path(case.name, '.json')
+        command = [self.args.program, 'mesh', source, '-o', out, '--report', report, '--quiet']
+        if self.args.threads:
+            command += ['--threads', str(self.args.threads)]
+        process = subprocess.Popen(command)
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        if process.returncode != 0:
+            raise RuntimeError('exit code %d' % process.returncode)
+        figures = {'cpu_seconds': usage.ru_utime + usage.ru_stime, 'peak_megabytes': usage.ru_maxrss / 1024}
+        with open(report) as file:
+            return figures, json.load(file), out
+
+    def figures(self, case):
+        source, truth, cloud = self.prepare(case)
+        figures, report, out = self.mesh(case, source)
+        command = [sys.executable, self.judge, out]
+        command += ['--truth', truth] if truth else []
+        command += ['--cloud', cloud] if cloud else []
+        judged = subprocess.run(command, check=True, capture_output=True, text=True)
+        figures.update(json.loads(judged.stdout))
+        vertices, faces = sys.modules['mesh_quality'].read_any(out)
+        points = sys.modules['mesh_quality'].read_any(cloud)[0] if cloud else np.zeros((0, 3))
+        figures.update(boundary_check.check(vertices, faces, points, report['pixel_size']))
+        with open(self.path(case.name, '_figures.json'), 'w') as file:
+            json.dump(figures, file, indent=1)
+        return figures
+
+    def row(self, case):
+        """A line of the table per demanded figure, and one of the others; the number missed."""
+        shown = case.source if isinstance(case.source, str) else \
+            '%s, %d points' % (case.source.mesh, case.source.points)
+        try:
+            figures = self.figures(case)
+        except (RuntimeError, subprocess.CalledProcessError) as error:
+            detail = getattr(error, 'stderr', None) or str(error)
+            print('| %s | `%s` | runs | yes | %s | **no** |' % (case.name, shown, detail.strip()[-200:]))
+            return 1
+        missed = 0
+        for bound in case.bounds:
+            value = figures.get(bound.figure)
+            missed += not bound.holds(value)
+            limit = bound.text(bound.limit)
+            print('| %s | `%s` | %s | %s %s | %s | %s |' % (
+                case.name, shown, bound.figure, bound.relation, limit, bound.text(value),
+                'yes' if bound.holds(value) else '**no**'))
+        demanded = {bound.figure for bound in case.bounds}
+        others = ', '.join('%s %s' % (name, Bound(name, '==', 0).text(figures[name])) for name in ALSO_SHOWN
+                           if figures.get(name) is not None and name not in demanded)
+        print('| %s | `%s` | others | | %s | |' % (case.name, shown, others), flush=True)
+        return missed
+
+
+def placed_scans(conf):
+    """The points of all scans of a Stanford .conf in the common frame: transpose(R(q)) p + t."""
+    clouds = []
+    for line in open(conf):
+        word = line.split()
+        if not word or word[0] != 'bmesh':
+            continue
+        points, _ = sys.modules['mesh_quality'].read_any(os.path.join(os.path.dirname(conf), word[1]))
+        tx, ty, tz, x, y, z, w = map(float, word[2:9])
+        norm = np.sqrt(x * x + y * y + z * z + w * w)
+        x, y, z, w = x / norm, y / norm, z / norm, w / norm
+        rotation = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                             [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                             [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+        clouds.append(points @ rotation + [tx, ty, tz])
+    return np.concatenate(clouds)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('--program', default=os.path.join(ROOT, 'build/release/apps/rangezip/rangezip'))
+    parser.add_argument('--shared', default=boundary_check.DEFAULT_SHARED)
+    parser.add_argument('--out', default=os.path.join(ROOT, 'build/quality'))
+    parser.add_argument('--threads', type=int, default=0, help='default: all of the machine')
+    parser.add_argument('--only', action='append', help='a part of a case\'s name')
+    parser.add_argument('--list', action='store_true', help='print the names of the cases')
+    args = parser.parse_args()
+    chosen = [case for case in CASES if not args.only or any(part in case.name for part in args.only)]
+    if args.list:
+        print('\n'.join(case.name for case in chosen))
+        return 0
+    for needed in (args.program, os.path.join(args.shared, 'eval', 'mesh_quality.py')):
+        if not os.path.exists(needed):
+            print('run.py: %s is not there' % needed, file=sys.stderr)
+            return 2
+    sys.path.insert(0, os.path.join(args.shared, 'eval'))
+    __import__('mesh_quality')
+    bench = Bench(args)
+    print('`rangezip mesh INPUT -o OUT.ply`, no other option that shapes the mesh\n')
+    print('| case | input | figure | must be | is | reached |')
+    print('|---|---|---|---|---|---|')
+    missed = sum(bench.row(case) for case in chosen)
+    print('\n%d figures missed' % missed)
+    return 1 if missed else 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())
