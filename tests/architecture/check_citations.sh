@@ -7,7 +7,10 @@ cd "$1"
 
 pattern='\[[[:upper:]][[:alpha:] ,.-]* (19|20)[0-9]{2}'
 sources=(core raster_cpu raster_gl compare apps tests benchmarks)
-pages=(docs/design.md docs/pipeline.md docs/rasterization.md)
+pages=(README.md scripts/*.sh)
+for page in docs/*.md; do
+  [ "$page" = docs/bibliography.md ] || pages+=("$page")
+done
 
 # "[A 1990; B 1995]" cites two works.
 separate() { sed 's/; \([[:upper:]]\)/] [\1/g'; }
@@ -15,7 +18,7 @@ separate() { sed 's/; \([[:upper:]]\)/] [\1/g'; }
 cited=$(grep -rh --include='*.h' --include='*.cpp' '' "${sources[@]}" | separate |
   grep -oE "$pattern" | sort -u)
 [ -n "$cited" ] || { echo "no citation found: is this the repository?"; exit 1; }
-cited_in_pages=$(cat "${pages[@]}" README.md scripts/*.sh | separate | grep -oE "$pattern" | sort -u)
+cited_in_pages=$(cat "${pages[@]}" | separate | grep -oE "$pattern" | sort -u)
 listed=$(grep -oE "^- $pattern" docs/bibliography.md | sed 's/^- //' | sort -u)
 
 missing=$(comm -23 <(printf '%s\n' "$cited" "$cited_in_pages" | grep . | sort -u) <(echo "$listed"))
