@@ -9,6 +9,7 @@
 #include "core/finish/point_grid.h"
 #include "core/finish/relax.h"
 #include "core/finish/repair.h"
+#include "core/finish/snap_features.h"
 
 namespace rangezip {
 namespace {
@@ -47,6 +48,12 @@ FinishResult finish(TriangleMesh mesh, std::span<const Vec3> cloud, const Finish
     const RelaxReport relaxed = relax(mesh, points, {h, options.relaxations}, progress);
     result.report.collapsed_edges = relaxed.collapsed_edges;
     result.report.flipped_edges = relaxed.flipped_edges;
+    if (options.snap_features) {
+      const SnapReport snapped = snap_features(mesh, points, {h}, progress);
+      result.report.snapped_vertices = snapped.snapped_vertices;
+      result.report.collapsed_edges += snapped.collapsed_edges;
+      result.report.flipped_edges += snapped.flipped_edges;
+    }
     repair(mesh, points, options, result.report, progress);
   }
   const CornerTable table(mesh.triangles, mesh.positions.size());

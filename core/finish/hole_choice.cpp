@@ -110,7 +110,7 @@ std::optional<FillShape> choose_fill(const std::vector<Vec3>& positions, const C
   const HoleFill fill = fill_loop(positions, table, loop, FillShape::smooth, h);
   const double width = 2.0 * area_of(positions, fill) / geometry.perimeter;  // of a long strip
   const bool is_large = geometry.perimeter > options.max_hole_perimeter * h;
-  if (is_large && width < options.narrow_width * h) return FillShape::coarse;
+  if (is_large && width < options.narrow_width * h) return FillShape::flat;
   if (has_points_inside(geometry, fill, cloud, h)) return FillShape::smooth;
   if (is_large || is_rim(geometry)) return std::nullopt;
   return geometry.perimeter <= kSmoothPerimeter * h ? FillShape::smooth : FillShape::flat;

@@ -76,8 +76,8 @@ TEST_CASE("a torn and crumpled sphere becomes closed and free of self-intersecti
   constexpr int kN = 32;
   const TriangleMesh torn = torn_sphere(kN, seed);
   REQUIRE_FALSE(self_intersections(torn).empty());
-  const FinishResult result =
-      finish(torn, sphere_points(40000, seed), options_for(kN, FinishMethod::fast));
+  const auto method = GENERATE(FinishMethod::fast, FinishMethod::full);
+  const FinishResult result = finish(torn, sphere_points(40000, seed), options_for(kN, method));
   require_clean(result.mesh);
   REQUIRE(report_mesh(result.mesh).euler == 2);
   REQUIRE(report_mesh(result.mesh).components == 1);

@@ -1,0 +1,189 @@
+#include "core/finish/feature_cleanup.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "core/finish/triangle_shape.h"
+
+namespace rangezip {
+namespace {
+
+// Lengths are in h, angles as cosines, and smallest angles as sines.
+constexpr int kRounds = 3;
+constexpr int kSliverRounds = 4;
+constexpr double kShortEdge = 0.5;
+constexpr double kCollapseTurn = 0.3;  // faces beside a feature may tilt a lot
+constexpr double kMinAngleAfterCollapse = 0.12;
+constexpr double kMinAngleAfterFlip = 0.1;
+constexpr double kNegligibleArea = 0.05;  // twice the area, in h^2: has no direction to keep
+constexpr double kSliver = 0.2;
+constexpr double kGain = 0.02;
+constexpr double kNoArea = 0.01;
+constexpr double kHasDirection = 0.1;
+constexpr double kSliverTurn = 0.8;
+
+class Cleaner {
+ public:
+  Cleaner(CornerTable& table, const std::vector<Vec3>& positions,
+          const std::vector<std::uint8_t>& is_feature, double pixel_size)
+      : table_(table), positions_(positions), is_feature_(is_feature), h_(pixel_size) {}
+
+  FeatureCleanupReport run() {
+    for (int i = 0; i < kRounds; ++i) {
+      collapse_short_edges();
+      join_features();
+      for (int k = 0; k < kSliverRounds; ++k) {
+        if (!remove_slivers()) break;
+      }
+    }
+    return report_;
+  }
+
+ private:
+  [[nodiscard]] const Vec3& at(std::uint32_t vertex) const { return positions_[vertex]; }
+  [[nodiscard]] bool names_inner_edge(std::uint32_t c) const {
+    const std::uint32_t other = table_.across(c);
+    return !table_.is_deleted(c / 3) && other != CornerTable::kNone && c < other;
+  }
+  /// A feature vertex may only move along the feature.
+  [[nodiscard]] bool may_collapse(std::uint32_t c) const {
+    const bool leaves = is_feature_[table_.vertex(c)] != 0 && is_feature_[table_.head(c)] == 0;
+    return !leaves && table_.is_collapse_ok(c);
+  }
+
+  void collapse_short_edges() {
+    const double limit = kShortEdge * kShortEdge * h_ * h_;
+    for (std::uint32_t c = 0; c < table_.corner_count(); ++c) {
+      if (!names_inner_edge(c)) continue;
+      const Vec3 edge = at(table_.head(c)) - at(table_.vertex(c));
+      if (glm::dot(edge, edge) > limit) continue;
+      for (const std::uint32_t side : {c, table_.across(c)}) {
+        if (!may_collapse(side) || !keeps_shape(side)) continue;
+        table_.collapse(side);
+        ++report_.collapsed_edges;
+        break;
+      }
+    }
+  }
+
+  [[nodiscard]] bool keeps_shape(std::uint32_t corner) const {
+    const std::uint32_t target = table_.head(corner);
+    const double negligible = kNegligibleArea * h_ * h_;
+    bool ok = true;
+    table_.for_each_corner(table_.vertex(corner), [&](std::uint32_t c) {
+      const std::uint32_t p = table_.head(c), q = table_.apex(c);
+      if (!ok || p == target || q == target) return;
+      const Vec3 before = area_vector(at(table_.vertex(c)), at(p), at(q));
+      const Vec3 after = area_vector(at(target), at(p), at(q));
+      ok = (has_cosine(before, after, kCollapseTurn) &&
+            sine_of_smallest_angle(at(target), at(p), at(q)) >= kMinAngleAfterCollapse) ||
+           glm::dot(before, before) <= negligible * negligible;
+    });
+    return ok;
+  }
+
+  void join_features() {
+    for (std::uint32_t c = 0; c < table_.corner_count(); ++c) {
+      if (!names_inner_edge(c)) continue;
+      const std::uint32_t a = table_.vertex(c), b = table_.head(c);
+      const std::uint32_t x = table_.apex(c), y = table_.apex(table_.across(c));
+      if (is_feature_[x] == 0 || is_feature_[y] == 0) continue;
+      if (is_feature_[a] != 0 && is_feature_[b] != 0) continue;
+      if (sine_of_smallest_angle(at(a), at(y), at(x)) < kMinAngleAfterFlip) continue;
+      if (sine_of_smallest_angle(at(b), at(x), at(y)) < kMinAngleAfterFlip) continue;
+      if (!table_.is_flip_ok(c)) continue;
+      table_.flip(c);
+      ++report_.flipped_edges;
+    }
+  }
+
+  /// @return whether anything was done
+  bool remove_slivers() {
+    bool any = false;
+    for (std::uint32_t face = 0; face < table_.face_count(); ++face) {
+      if (table_.is_deleted(face)) continue;
+      const Triangle t = table_.triangle(face);
+      const double angle = sine_of_smallest_angle(at(t[0]), at(t[1]), at(t[2]));
+      if (angle < kSliver && remove_sliver(face, angle + kGain)) any = true;
+    }
+    return any;
+  }
+
+  bool remove_sliver(std::uint32_t face, double at_least) {
+    double best = at_least;
+    std::optional<std::uint32_t> collapse, flip;
+    for (std::uint32_t c = 3 * face; c < 3 * face + 3; ++c) {
+      if (table_.across(c) == CornerTable::kNone) continue;
+      for (const std::uint32_t side : {c, table_.across(c)}) {
+        if (!may_collapse(side)) continue;
+        const double angle = angle_after_collapse(side);
+        if (angle <= best) continue;
+        best = angle;
+        collapse = side;
+      }
+    }
+    for (std::uint32_t c = 3 * face; c < 3 * face + 3; ++c) {
+      const double angle = angle_after_flip(c);
+      if (angle < best || !table_.is_flip_ok(c)) continue;
+      best = angle;
+      flip = c;
+    }
+    if (flip) {
+      table_.flip(*flip);
+      ++report_.flipped_edges;
+    } else if (collapse) {
+      table_.collapse(*collapse);
+      ++report_.collapsed_edges;
+    }
+    return flip || collapse;
+  }
+
+  /// The smallest angle around after the half-edge's vertex moved into its head; -1 if a face
+  /// would turn or lose its area.
+  [[nodiscard]] double angle_after_collapse(std::uint32_t corner) const {
+    const std::uint32_t target = table_.head(corner);
+    double smallest = 1.0;
+    table_.for_each_corner(table_.vertex(corner), [&](std::uint32_t c) {
+      const std::uint32_t p = table_.head(c), q = table_.apex(c);
+      if (smallest < 0.0 || p == target || q == target) return;
+      const Vec3& from = at(table_.vertex(c));
+      const double before = sine_of_smallest_angle(from, at(p), at(q));
+      const double after = sine_of_smallest_angle(at(target), at(p), at(q));
+      const bool turns =
+          before > kHasDirection && !has_cosine(area_vector(from, at(p), at(q)),
+                                                area_vector(at(target), at(p), at(q)), kSliverTurn);
+      smallest = turns || after <= kNoArea ? -1.0 : std::min(smallest, after);
+    });
+    return smallest;
+  }
+
+  /// -1 if the edge is none to flip: both new faces must look as the face beyond the edge does.
+  [[nodiscard]] double angle_after_flip(std::uint32_t c) const {
+    if (table_.across(c) == CornerTable::kNone) return -1.0;
+    const Vec3& a = at(table_.vertex(c));
+    const Vec3& b = at(table_.head(c));
+    const Vec3& x = at(table_.apex(c));
+    const Vec3& y = at(table_.apex(table_.across(c)));
+    const Vec3 beyond = area_vector(b, a, y);
+    if (!has_cosine(area_vector(a, y, x), beyond, kSliverTurn)) return -1.0;
+    if (!has_cosine(area_vector(b, x, y), beyond, kSliverTurn)) return -1.0;
+    return std::min(sine_of_smallest_angle(a, y, x), sine_of_smallest_angle(b, x, y));
+  }
+
+  CornerTable& table_;
+  const std::vector<Vec3>& positions_;
+  const std::vector<std::uint8_t>& is_feature_;
+  double h_;
+  FeatureCleanupReport report_;
+};
+
+}  // namespace
+
+FeatureCleanupReport clean_features(CornerTable& table, const std::vector<Vec3>& positions,
+                                    const std::vector<std::uint8_t>& is_feature,
+                                    double pixel_size) {
+  return Cleaner(table, positions, is_feature, pixel_size).run();
+}
+
+}  // namespace rangezip

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/base/geometry.h"
+#include "core/finish/corner_table.h"
+
+namespace rangezip {
+
+struct FeatureCleanupReport {
+  std::size_t collapsed_edges = 0;
+  std::size_t flipped_edges = 0;
+};
+
+/// Tidies the triangles after vertices were pulled onto features: collapses edges shorter than h/2
+/// (never a feature vertex into another kind), turns edges between two faces so that they join
+/// feature vertices, and removes slivers by the collapse or flip that leaves the best angles.
+/// No valid face turns over. @param is_feature per vertex: 1 for those on a feature
+FeatureCleanupReport clean_features(CornerTable& table, const std::vector<Vec3>& positions,
+                                    const std::vector<std::uint8_t>& is_feature, double pixel_size);
+
+}  // namespace rangezip

@@ -1,0 +1,145 @@
+#include "core/finish/snap_features.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+
+#include "core/finish/relax.h"
+#include "core/mesh/mesh_report.h"
+#include "tests/core/finish/shapes.h"
+
+namespace rangezip {
+namespace {
+
+using testing::uniform;
+
+constexpr int kN = 28;
+constexpr double kH = 2.0 / kN;
+
+/// The point of the cube [-1, 1]^3 with edges rounded by `radius` that belongs to a point of the
+/// sharp one.
+Vec3 rounded(const Vec3& p, double radius) {
+  const Vec3 core = glm::clamp(p, Vec3(radius - 1.0), Vec3(1.0 - radius));
+  return core + radius * glm::normalize(p - core);
+}
+
+/// A turn that no axis of a lattice survives: a rational rotation matrix.
+Vec3 turned(const Vec3& p) {
+  const Mat3 turn(Vec3(2, 3, 6) / 7.0, Vec3(-6, -2, 3) / 7.0, Vec3(3, -6, 2) / 7.0);
+  return turn * p;
+}
+Vec3 turned_back(const Vec3& p) {
+  return {glm::dot(p, turned({1, 0, 0})), glm::dot(p, turned({0, 1, 0})),
+          glm::dot(p, turned({0, 0, 1}))};
+}
+
+/// Points on all sides, 2.2 a pixel each way, with noise.
+std::vector<Vec3> cube_points(double radius, double noise, std::uint64_t seed) {
+  std::mt19937_64 engine(seed);
+  const double spacing = kH / 2.2;
+  std::vector<Vec3> points(static_cast<std::size_t>(24.0 / (spacing * spacing)));
+  for (Vec3& p : points) {
+    p = {uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1)};
+    p[static_cast<int>(engine() % 3)] = engine() % 2 == 0 ? 1.0 : -1.0;
+    if (radius > 0.0) p = rounded(p, radius);
+    p = turned(p) +
+        noise * Vec3(uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1));
+  }
+  return points;
+}
+
+/// The cube as a scan of it would be: no vertex on an edge, edges rounded off.
+TriangleMesh scanned_cube(double radius, const PointGrid& cloud) {
+  TriangleMesh mesh = testing::cube(kN);
+  std::mt19937_64 engine(9);
+  for (Vec3& p : mesh.positions) {
+    p += 0.2 * kH * Vec3(uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1));
+    p = turned(rounded(p, std::max(radius, 0.5 * kH)));
+  }
+  relax(mesh, cloud, {kH, 3});
+  remove_unused_vertices(mesh);
+  return mesh;
+}
+
+const Box kRegion{Vec3(-2.5), Vec3(2.5)};
+
+double distance_to_cube(const Vec3& p) {
+  const Vec3 q = glm::abs(turned_back(p));
+  return std::abs(std::max({q.x, q.y, q.z}) - 1.0);
+}
+
+TEST_CASE("snap_features restores the edges and corners of a cube") {
+  const PointGrid cloud(cube_points(0.0, 0.0, 1), kRegion, 0.7 * kH);
+  TriangleMesh mesh = scanned_cube(0.0, cloud);
+  const double volume_before = testing::volume_of(mesh);
+  REQUIRE(8.0 - volume_before > 0.02);  // about the 24 units of edge times 0.02 h^2 rounded off
+  const SnapReport report = snap_features(mesh, cloud, {kH});
+  remove_unused_vertices(mesh);
+  REQUIRE(report_mesh(mesh).is_manifold());
+  REQUIRE(report_mesh(mesh).euler == 2);
+  // About one vertex a pixel of edge and more: 24 / h.
+  REQUIRE(static_cast<double>(report.snapped_vertices) > 24.0 / kH / 2.0);
+  REQUIRE(std::abs(8.0 - testing::volume_of(mesh)) < 0.1 * (8.0 - volume_before));
+  std::size_t far = 0;
+  for (const Vec3& p : mesh.positions)
+    far += distance_to_cube(p) > 0.02 * kH ? 1 : 0;
+  REQUIRE(far < mesh.positions.size() / 200);
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 c = turned(Vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1));
+    double nearest = 1e9;
+    for (const Vec3& p : mesh.positions)
+      nearest = std::min(nearest, glm::length(p - c));
+    CAPTURE(corner);
+    REQUIRE(nearest < 0.05 * kH);
+  }
+}
+
+TEST_CASE("a little noise does not keep edges from being found") {
+  const PointGrid cloud(cube_points(0.0, 0.05 * kH, 2), kRegion, 0.7 * kH);
+  TriangleMesh mesh = scanned_cube(0.0, cloud);
+  const double volume_before = testing::volume_of(mesh);
+  snap_features(mesh, cloud, {kH});
+  REQUIRE(std::abs(8.0 - testing::volume_of(mesh)) < 0.3 * (8.0 - volume_before));
+}
+
+TEST_CASE("rounded edges and noisy clouds are left alone") {
+  double radius = 0.0, noise = 0.0;
+  SECTION("edges rounded by two pixels") {
+    radius = 2.0 * kH;
+  }
+  SECTION("edges rounded by four pixels") {
+    radius = 4.0 * kH;
+  }
+  SECTION("noise of half a pixel") {
+    noise = 0.5 * kH;
+  }
+  const PointGrid cloud(cube_points(radius, noise, 3), kRegion, 0.7 * kH);
+  TriangleMesh mesh = scanned_cube(radius, cloud);
+  const std::size_t count = mesh.positions.size();
+  const SnapReport report = snap_features(mesh, cloud, {kH});
+  REQUIRE(report.snapped_vertices < count / 200);
+}
+
+TEST_CASE("a sphere has no features") {
+  std::mt19937_64 engine(4);
+  std::vector<Vec3> points;
+  while (points.size() < 20000) {
+    const Vec3 p(uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1));
+    const double length = glm::length(p);
+    if (length > 0.1 && length < 1.0) points.push_back(p / length);
+  }
+  TriangleMesh mesh = testing::sphere(24);
+  const TriangleMesh before = mesh;
+  const PointGrid cloud(points, kRegion, 0.05);
+  REQUIRE(snap_features(mesh, cloud, {0.06}).snapped_vertices == 0);
+  REQUIRE(mesh == before);
+}
+
+TEST_CASE("without a cloud nothing is snapped") {
+  TriangleMesh mesh = testing::cube(8);
+  REQUIRE(snap_features(mesh, PointGrid({}, kRegion, 0.1), {0.25}).snapped_vertices == 0);
+  REQUIRE(mesh == testing::cube(8));
+}
+
+}  // namespace
+}  // namespace rangezip
