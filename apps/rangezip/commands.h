@@ -1,11 +1,13 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 
 #include <CLI/CLI.hpp>
 
 #include "apps/rangezip/console.h"
+#include "core/io/mesh_file.h"
 
 namespace rangezip::app {
 
@@ -24,6 +26,22 @@ struct CommonOptions {
   bool quiet = false;
 };
 void add_common_options(CLI::App& command, CommonOptions& options);
+
+/// How a mesh is written.
+void add_mesh_file_options(CLI::App& command, MeshFileOptions& options);
+
+/// --method and its like: one of a few words.
+template <class Value>
+auto one_of(std::map<std::string, Value> values) {
+  return [values = std::move(values)](const std::string& text) {
+    const auto found = values.find(text);
+    if (found != values.end()) return found->second;
+    std::string known;
+    for (const auto& [name, value] : values)
+      known += (known.empty() ? "" : ", ") + name;
+    throw CLI::ValidationError("must be one of " + known + ", got '" + text + "'");
+  };
+}
 
 /// Each adds one command with its options and help; when it is on the command line, `action`
 /// becomes its run.

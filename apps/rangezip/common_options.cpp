@@ -15,4 +15,10 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
   command.add_flag("-q,--quiet", options.quiet, "No progress and no summary; errors only");
 }
 
+void add_mesh_file_options(CLI::App& command, MeshFileOptions& options) {
+  command.add_flag("--ascii", options.ascii, "Write PLY or STL as text");
+  command.add_flag("--sources", options.with_sources,
+                   "Write the input primitive and the view of every vertex (PLY)");
+}
+
 }  // namespace rangezip::app

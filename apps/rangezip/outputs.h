@@ -20,6 +20,8 @@ class Outputs {
   void add(const std::string& option, const std::filesystem::path& path,
            std::initializer_list<std::string_view> types);
 
+  [[nodiscard]] bool empty() const noexcept { return outputs_.empty(); }
+
   /// @throws UsageError if an output would overwrite one of the `inputs`, which is only wrong
   ///     where the inputs are needed again.
   void refuse_overwriting(const std::vector<std::filesystem::path>& inputs) const;

@@ -219,7 +219,7 @@ template <class Fields>
 void describe(Fields& f, FillMeshHoles& command) {
   auto& [pixel_size, max_perimeter] = command;
   f.number("pixel_size", pixel_size, kNotNegative,
-           "target edge length, model units; 0: the mesh's mean edge length");
+           "least length of new edges, model units; longer where the edges around the hole are");
   f.limit("max_perimeter", max_perimeter, "model units; longer loops stay open; null: no limit");
 }
 

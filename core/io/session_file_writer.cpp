@@ -140,10 +140,10 @@ std::string pretty_at(const Json& json, const std::string& indent, std::size_t c
 
 Json json_of(const Command& command) {
   return std::visit(
-      [](auto members) {  // a copy, since the walk takes what it could also fill
+      []<class Members>(Members members) {  // a copy: the walk takes what it could also fill
         Writer writer;
         for_each_command_type([&](const char* name, const char*, const auto& type) {
-          if constexpr (std::is_same_v<std::decay_t<decltype(type)>, decltype(members)>) {
+          if constexpr (std::is_same_v<std::decay_t<decltype(type)>, Members>) {
             writer.put("command", name);
           }
         });

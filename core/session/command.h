@@ -41,7 +41,8 @@ struct SmoothMesh {
 
 /// Closes boundary loops up to a perimeter.
 struct FillMeshHoles {
-  double pixel_size = 0.0;  ///< target edge length, model units; 0: the mesh's mean edge length
+  double pixel_size = 0.0;  ///< least length of new edges, model units; longer where the edges
+                            ///< around the hole are
   double max_perimeter = std::numeric_limits<double>::infinity();  ///< model units
 };
 

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <variant>
 
 #include "core/base/error.h"
-#include "core/finish/fill_mesh_holes.h"
+#include "core/finish/hole_filling.h"
 #include "core/finish/laplacian_smooth.h"
 #include "core/plan/spacing.h"
 #include "core/session/erase_region.h"
@@ -75,16 +76,16 @@ class CommandRun {
   }
 
   void operator()(const FillMeshHoles& command) {
-    const double pixel_size = pixel_size_or_default(command.pixel_size);
-    FillMeshHolesResult filled =
-        fill_mesh_holes(std::move(result_.mesh), pixel_size, command.max_perimeter);
+    const double max_perimeter =
+        std::min(command.max_perimeter, std::numeric_limits<double>::max());
+    FilledMesh filled = fill_mesh_holes(std::move(result_.mesh), command.pixel_size, max_perimeter);
     result_.mesh = std::move(filled.mesh);
     result_.report.filled_holes = filled.filled_holes;
   }
 
   void operator()(const FinishMesh& command) {
     FinishOptions options = command.options;
-    options.pixel_size = pixel_size_or_default(options.pixel_size);
+    if (options.pixel_size == 0.0) options.pixel_size = mean_edge_length(result_.mesh);
     FinishResult finished =
         finish(std::move(result_.mesh), evidence_points(scene_), options, progress_);
     result_.mesh = std::move(finished.mesh);
@@ -96,10 +97,6 @@ class CommandRun {
   }
 
  private:
-  [[nodiscard]] double pixel_size_or_default(double pixel_size) const {
-    return pixel_size == 0.0 ? mean_edge_length(result_.mesh) : pixel_size;
-  }
-
   const Scene& scene_;
   VoteCache& votes_;
   Rasterizer& rasterizer_;

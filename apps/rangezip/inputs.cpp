@@ -1,0 +1,67 @@
+#include "apps/rangezip/inputs.h"
+
+#include <algorithm>
+
+#include "core/io/file_hash.h"
+
+namespace rangezip::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+double total_bytes(const std::vector<fs::path>& paths) {
+  double bytes = 0.0;
+  for (const fs::path& path : paths) {
+    std::error_code error;
+    const auto size = fs::file_size(path, error);
+    if (!error) bytes += static_cast<double>(size);
+  }
+  return bytes;
+}
+
+SessionInput with_hash(const fs::path& path) {
+  return {.path = path, .hash = hash_file(path)};
+}
+
+}  // namespace
+
+SceneInput read_inputs(const std::vector<fs::path>& paths, Console& console) {
+  const Progress progress = console.start_task("reading", total_bytes(paths), "B");
+  SceneInput input = read_scene(paths, progress);
+  console.end_task();
+  return input;
+}
+
+std::string amount_text(const Scene& scene) {
+  std::string text;
+  if (scene.point_count() > 0) text = with_commas(scene.point_count()) + " points";
+  if (scene.triangle_count() > 0) {
+    text += (text.empty() ? "" : ", ") + with_commas(scene.triangle_count()) + " triangles";
+  }
+  return text;
+}
+
+Workload workload_of(const Scene& scene) {
+  if (scene.point_count() > 0) return {static_cast<double>(scene.point_count()), "points"};
+  return {static_cast<double>(scene.triangle_count()), "triangles"};
+}
+
+SessionFile record_session(const std::vector<fs::path>& paths, const SceneInput& input,
+                           const std::optional<fs::path>& initial_mesh,
+                           std::vector<Command> commands) {
+  SessionFile session;
+  for (const fs::path& path : paths)
+    session.inputs.push_back(with_hash(path));
+  for (const InputReport& report : input.reports) {
+    if (std::find(paths.begin(), paths.end(), fs::path(report.path)) != paths.end()) continue;
+    session.also_read.push_back(with_hash(report.path));
+  }
+  if (initial_mesh) session.initial_mesh = with_hash(*initial_mesh);
+  session.points = input.scene.point_count();
+  session.triangles = input.scene.triangle_count();
+  session.commands = std::move(commands);
+  return session;
+}
+
+}  // namespace rangezip::app

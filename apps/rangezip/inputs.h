@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/rangezip/console.h"
+#include "core/io/input_file.h"
+#include "core/io/session_file.h"
+
+namespace rangezip::app {
+
+/// Reads all files as one scene, with progress. @throws IoError as read_scene().
+[[nodiscard]] SceneInput read_inputs(const std::vector<std::filesystem::path>& paths,
+                                     Console& console);
+
+/// "362,272 points, 69,451 triangles", without what there is none of.
+[[nodiscard]] std::string amount_text(const Scene& scene);
+
+/// The points to draw, or the triangles where there are none: what the rate of the work counts.
+struct Workload {
+  double amount = 0.0;
+  std::string unit;
+};
+[[nodiscard]] Workload workload_of(const Scene& scene);
+
+/// A session of `commands` on what was read, with the hash of every file.
+/// @throws IoError if a file has vanished.
+[[nodiscard]] SessionFile record_session(const std::vector<std::filesystem::path>& paths,
+                                         const SceneInput& input,
+                                         const std::optional<std::filesystem::path>& initial_mesh,
+                                         std::vector<Command> commands);
+
+}  // namespace rangezip::app

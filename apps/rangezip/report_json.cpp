@@ -1,0 +1,143 @@
+#include "apps/rangezip/report_json.h"
+
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/io/atomic_file.h"
+
+namespace rangezip::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const InputReport& input) {
+  return {{"path", input.path},
+          {"format", input.format},
+          {"points", input.points},
+          {"triangles", input.triangles},
+          {"polygons", input.polygons},
+          {"skipped",
+           {{"nonfinite_points", input.nonfinite_points},
+            {"nonfinite_polygons", input.nonfinite_polygons},
+            {"degenerate_polygons", input.degenerate_polygons}}},
+          {"notes", input.notes}};
+}
+
+Json json_of(const ScanReport& scan) {
+  return {{"samples", scan.samples},        {"see_through", scan.see_through},
+          {"back_side", scan.back_side},    {"inside", scan.inside},
+          {"filled", scan.filled},          {"steep", scan.steep},
+          {"matched", scan.matched},        {"active", scan.active},
+          {"patch_faces", scan.patch_faces}};
+}
+
+Json json_of(const StitchReport& stitch) {
+  return {{"removed_faces", stitch.removed_faces},
+          {"patch_faces", stitch.patch_faces},
+          {"strip_faces", stitch.strip_faces},
+          {"dropped_components", stitch.dropped_components},
+          {"dropped_faces", stitch.dropped_faces}};
+}
+
+Json json_of(const FinishReport& finish) {
+  return {{"self_intersections_cut", finish.self_intersections_cut},
+          {"bridged_loops", finish.bridged_loops},
+          {"filled_holes", finish.filled_holes},
+          {"filled_faces", finish.filled_faces},
+          {"open_loops", finish.open_loops},
+          {"collapsed_edges", finish.collapsed_edges},
+          {"flipped_edges", finish.flipped_edges},
+          {"snapped_vertices", finish.snapped_vertices},
+          {"dropped_components", finish.dropped_components},
+          {"dropped_faces", finish.dropped_faces}};
+}
+
+/// The views in order; the commands after them are the finish.
+Json views_of(const ReconstructReport& report) {
+  Json views = Json::array();
+  for (std::size_t i = 0; i < report.views.size(); ++i) {
+    const Vec3& direction = report.views[i];
+    const CommandReport& command = report.commands.at(i);
+    views.push_back({{"toward_viewer", {direction.x, direction.y, direction.z}},
+                     {"kind", i < report.planned_views ? "planned" : "fill"},
+                     {"seconds", command.seconds},
+                     {"scan", json_of(command.scan)},
+                     {"stitch", json_of(command.stitch)}});
+  }
+  return views;
+}
+
+Json mesh_of(const ReconstructReport& report) {
+  const MeshReport& mesh = report.mesh;
+  return {{"vertices", mesh.vertices},
+          {"faces", mesh.faces},
+          {"edges", mesh.edges},
+          {"components", mesh.components},
+          {"boundary_loops", mesh.boundary_loops},
+          {"boundary_edges", mesh.boundary_edges},
+          {"longest_loop", mesh.longest_loop},
+          {"euler_number", mesh.euler},
+          {"nonmanifold_edges", mesh.nonmanifold_edges},
+          {"nonmanifold_vertices", mesh.nonmanifold_vertices},
+          {"misoriented_edges", mesh.misoriented_edges},
+          {"degenerate_faces", mesh.degenerate_faces},
+          {"self_intersections", report.self_intersections}};
+}
+
+Json stages_of(const std::vector<StageTime>& stages) {
+  Json list = Json::array();
+  for (const StageTime& stage : stages) {
+    list.push_back(
+        {{"stage", stage.stage}, {"seconds", stage.seconds}, {"cpu_seconds", stage.cpu_seconds}});
+  }
+  return list;
+}
+
+/// Pieces that were too small to keep, over all scans and the finish.
+Json dropped_of(const ReconstructReport& report) {
+  std::size_t components = 0;
+  std::size_t faces = 0;
+  for (const CommandReport& command : report.commands) {
+    components += command.stitch.dropped_components + command.finish.dropped_components;
+    faces += command.stitch.dropped_faces + command.finish.dropped_faces;
+  }
+  return {{"components", components}, {"faces", faces}};
+}
+
+std::size_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+}
+
+Json json_of(const MeshRunReport& run) {
+  const ReconstructReport& report = run.reconstruction;
+  Json json{{"program", "rangezip " RANGEZIP_VERSION}, {"backend", run.rasterizer.name}};
+  json["inputs"] = Json::array();
+  for (const InputReport& input : run.inputs)
+    json["inputs"].push_back(json_of(input));
+  json["pixel_size"] = report.pixel_size;
+  json["planned_coverage"] = report.planned_coverage;
+  json["views"] = views_of(report);
+  if (report.commands.size() > report.views.size()) {
+    json["finish"] = json_of(report.commands.back().finish);
+  }
+  json["coverage"] = report.coverage;
+  json["mesh"] = mesh_of(report);
+  json["dropped"] = dropped_of(report);
+  json["stages"] = stages_of(run.stages);
+  json["peak_memory_bytes"] = peak_memory_bytes();
+  return json;
+}
+
+}  // namespace
+
+void write_report(const std::filesystem::path& path, const MeshRunReport& report) {
+  AtomicFile file(path);
+  file.write(json_of(report).dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+  file.commit();
+}
+
+}  // namespace rangezip::app

@@ -1,0 +1,253 @@
+#include "apps/rangezip/scan_request.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "apps/rangezip/commands.h"
+#include "apps/rangezip/exit_code.h"
+#include "apps/rangezip/values.h"
+#include "core/reconstruct/resolution.h"
+#include "core/reconstruct/scan_recipe.h"
+#include "core/session/run_command.h"
+
+namespace rangezip::app {
+
+namespace {
+
+constexpr int kMargin = 4;  ///< pixels around the object
+
+/// A flag with its opposite: --median and --no-median.
+void add_switch(CLI::App& command, const std::string& name, std::optional<bool>& target,
+                const std::string& text) {
+  command
+      .add_flag_function(
+          "--" + name + ",!--no-" + name, [&target](std::int64_t count) { target = count > 0; },
+          text)
+      ->group("Passes");
+}
+
+void add_count(CLI::App& command, const std::string& name, std::optional<int>& target, int lowest,
+               int highest, const std::string& text) {
+  command
+      .add_option_function<int>(
+          name, [&target](const int& value) { target = value; }, text)
+      ->check(CLI::Range(lowest, highest))
+      ->type_name("N")
+      ->group("Passes");
+}
+
+void add_view_options(CLI::App& command, ScanChoices& choices) {
+  const auto add = [&](const char* name, auto& target, const auto& parse, const char* text,
+                       const char* form) {
+    add_parsed(command, name, target, parse, text, form)->group("View");
+  };
+  add("--direction", choices.direction, parse_vector, "From the object toward the scanner [0,0,1]",
+      "X,Y,Z");
+  add("--up", choices.up, parse_vector,
+      "What points upwards in the image [y, or x if looking along y]", "X,Y,Z");
+  add("--size", choices.size, parse_extent, "Of the image, in pixels [around all of the input]",
+      "W,H");
+  add("--pixel-size", choices.pixel_size, parse_positive,
+      "Side of a pixel, in the units of the input [from the spacing of the points, or so that all "
+      "fits into --size]",
+      "H");
+  add("--perspective", choices.perspective, parse_positive,
+      "Central projection with this vertical angle, from where all is seen [parallel]", "DEGREES");
+  add("--region", choices.region, parse_polygon,
+      "Take only what is seen inside of this polygon: corners in pixels, from the lower left of "
+      "the image, y up",
+      "\"X,Y X,Y X,Y ...\"");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--clip",
+          [&choices](const std::vector<std::string>& planes) {
+            for (const std::string& plane : planes) {
+              choices.clip_planes.push_back(parse_plane(plane));
+            }
+          },
+          "Cut away what has NX x + NY y + NZ z + D < 0; may be given several times")
+      ->type_name("NX,NY,NZ,D")
+      ->allow_extra_args(false)
+      ->group("View");
+}
+
+void add_pass_options(CLI::App& command, ScanChoices& choices) {
+  add_count(command, "--point-size", choices.point_size, 1, kMaxPointSize,
+            "Size of a drawn point, in pixels [so that the sheet has no gaps]");
+  add_switch(command, "back-side", choices.back_side,
+             "Remove what lies behind the largest gap of the sorted depths");
+  add_parsed(command, "--min-gap", choices.min_gap, parse_not_negative,
+             "For --back-side: a smaller gap removes nothing [0]", "LENGTH")
+      ->group("Passes");
+  add_switch(command, "see-through", choices.see_through,
+             "Remove samples seen through gaps of a nearer sheet, and outliers");
+  add_switch(command, "vote", choices.vote,
+             "Remove samples that show the inside of a surface, by how its points are seen from "
+             "all around");
+  add_switch(command, "plane-fit", choices.plane_fit,
+             "Fit a plane to the points around each pixel instead of taking the nearest");
+  add_switch(command, "fill-holes", choices.fill_holes, "Fill gaps of the sampling by averages");
+  add_switch(command, "median", choices.median, "Edge-preserving median filter");
+  add_count(command, "--median-radius", choices.median_radius, 1, 50, "For --median: pixels [1]");
+  add_switch(command, "steep-cells", choices.steep_cells, "Leave out samples seen on edge");
+  add_parsed(command, "--steep-cosine", choices.steep_cosine, parse_positive,
+             "For --steep-cells: smallest cosine between normal and line of sight [0.2588]",
+             "COSINE")
+      ->group("Passes");
+  add_parsed(command, "--correspondence", choices.correspondence,
+             one_of<CorrespondenceMethod>({{"depth-band", CorrespondenceMethod::depth_band},
+                                           {"id-buffer", CorrespondenceMethod::id_buffer}}),
+             "How samples find the face they lie on: depth-band or id-buffer", "HOW")
+      ->group("Passes");
+  add_switch(command, "quality", choices.quality,
+             "Replace old surface only where the new one is sampled better");
+  command
+      .add_flag("--only-new", choices.only_new, "Take only samples that lie on no face of the mesh")
+      ->group("Passes");
+  add_count(command, "--erosions", choices.erosions, 0, 100, "Of what is taken, in rounds");
+  add_count(command, "--dilations", choices.dilations, 0, 100, "After the erosions, in rounds");
+  add_parsed(command, "--max-edge", choices.max_edge, parse_positive,
+             "Longest step of depth that a triangle bridges, over the square root of 2", "PIXELS")
+      ->group("Passes");
+  add_parsed(command, "--stitch", choices.stitch,
+             one_of<StitchMethod>({{"clear-and-fill", StitchMethod::clear_and_fill},
+                                   {"zipper", StitchMethod::zipper}}),
+             "How the patch joins the mesh: clear-and-fill or zipper", "HOW")
+      ->group("Passes");
+  add_parsed(command, "--collapse-ratio", choices.collapse_ratio, parse_not_negative,
+             "For zipper: seam edges shorter than this share of a pixel are collapsed", "SHARE")
+      ->group("Passes");
+}
+
+/// The camera and the image of a parallel scan.
+void frame_parallel(AddScan& command, const Box& bounds, double pixel_size,
+                    const ScanChoices& choices) {
+  FramedCamera framed = frame_box(bounds, choices.direction, pixel_size, kMargin, choices.up);
+  if (choices.size) {
+    const Extent size = *choices.size;
+    if (!choices.pixel_size) {
+      pixel_size *= std::max(static_cast<double>(framed.extent.width) / size.width,
+                             static_cast<double>(framed.extent.height) / size.height);
+    }
+    framed.camera.lens = Orthographic{.height = pixel_size * size.height};
+    framed.extent = size;
+  }
+  command.scan.camera = std::move(framed.camera);
+  command.scan.extent = framed.extent;
+}
+
+/// The same for a central projection: the eye stands where the sphere around the box just fits.
+void frame_perspective(AddScan& command, const Box& bounds, double pixel_size,
+                       const ScanChoices& choices) {
+  constexpr double kHalfTurn = 180.0;
+  if (*choices.perspective >= kHalfTurn) {
+    throw UsageError("--perspective: must be less than 180 degrees");
+  }
+  if (choices.size && choices.pixel_size) {
+    throw UsageError("--perspective: give only one of --size and --pixel-size; the other follows");
+  }
+  const double fov_y = *choices.perspective * std::numbers::pi / kHalfTurn;
+  const double slope = std::tan(0.5 * fov_y);
+  const double aspect =
+      choices.size ? static_cast<double>(choices.size->width) / choices.size->height : 1.0;
+  const double narrow = slope * std::min(1.0, aspect);
+  const double radius = 0.5 * bounds.diagonal();
+  const double distance = radius * std::sqrt(1.0 + 1.0 / (narrow * narrow));
+
+  FramedCamera framed = frame_box(bounds, choices.direction, pixel_size, kMargin, choices.up);
+  Camera& camera = framed.camera;  // moved along its line of sight to the new distance
+  const Vec4 center = camera.eye_from_world * Vec4(bounds.center(), 1.0);
+  camera.eye_from_world[3].z -= distance + center.z;
+  camera.lens = Perspective{.fov_y = fov_y};
+  if (choices.size) {
+    command.scan.extent = *choices.size;
+  } else {
+    const double side = std::ceil(2.0 * slope * distance / pixel_size);
+    if (side > kMaxRasterExtent) {
+      throw UsageError("--perspective: an image of " + std::to_string(static_cast<long>(side)) +
+                       " pixels is too large; give --size or a larger --pixel-size");
+    }
+    command.scan.extent = {static_cast<int>(side), static_cast<int>(side)};
+  }
+  command.scan.camera = fit_depth_planes(std::move(camera), bounds);
+}
+
+/// Turns a pass on with its defaults, off, or leaves it as the method has it.
+template <class Options>
+void choose(std::optional<Options>& pass, const std::optional<bool>& choice) {
+  if (choice && !*choice) pass.reset();
+  if (choice && *choice && !pass) pass.emplace();
+}
+
+/// Sets an option of a pass, which must be on.
+template <class Pass, class Value, class Member>
+void set(std::optional<Pass>& pass, Member Pass::*member, const std::optional<Value>& value,
+         const char* option, const char* needed) {
+  if (!value) return;
+  if (!pass) throw UsageError(std::string(option) + ": needs " + needed);
+  (*pass).*member = *value;
+}
+
+void choose_passes(AddScan& command, const ScanChoices& choices, double pixel_size) {
+  ScanRequest& scan = command.scan;
+  choose(scan.back_side, choices.back_side);
+  set(scan.back_side, &BackSideOptions::min_gap, choices.min_gap, "--min-gap", "--back-side");
+  choose(scan.see_through, choices.see_through);
+  choose(command.vote, choices.vote);
+  if (command.vote) command.vote->pixel_size = pixel_size;
+  choose(scan.plane_fit, choices.plane_fit);
+  choose(scan.fill_holes, choices.fill_holes);
+  choose(scan.median, choices.median);
+  set(scan.median, &MedianFilterOptions::radius, choices.median_radius, "--median-radius",
+      "--median");
+  choose(scan.steep_cells, choices.steep_cells);
+  set(scan.steep_cells, &SteepCellsOptions::min_cosine, choices.steep_cosine, "--steep-cosine",
+      "--steep-cells");
+  choose(scan.quality, choices.quality);
+  if (choices.correspondence) scan.correspondence.method = *choices.correspondence;
+  if (choices.erosions) scan.clean_mask.erosions = *choices.erosions;
+  if (choices.dilations) scan.clean_mask.dilations = *choices.dilations;
+  if (choices.max_edge) scan.triangulate.max_edge = *choices.max_edge;
+  if (choices.stitch) command.stitch.method = *choices.stitch;
+  if (choices.collapse_ratio) command.stitch.collapse_ratio = *choices.collapse_ratio;
+}
+
+}  // namespace
+
+void add_scan_choices(CLI::App& command, ScanChoices& choices) {
+  add_view_options(command, choices);
+  add_parsed(command, "--method", choices.method,
+             one_of<ReconstructMethod>(
+                 {{"auto", ReconstructMethod::automatic}, {"paper", ReconstructMethod::paper}}),
+             "Which passes run unless chosen below: auto, or paper: those of Kobbelt and Botsch "
+             "2000 [auto]",
+             "METHOD");
+  add_pass_options(command, choices);
+}
+
+AddScan make_scan(const Scene& scene, const ScanChoices& choices) {
+  const Resolution resolution =
+      choose_resolution(scene, evidence_points(scene), choices.pixel_size, std::nullopt);
+  const ScanRecipe recipe{.method = choices.method,
+                          .bounds = resolution.bounds,
+                          .pixel_size = resolution.pixel_size,
+                          .point_size = resolution.point_size,
+                          .has_points = scene.point_count() > 0};
+  constexpr std::uint32_t kFirstView = 0;
+  AddScan command = choices.only_new ? fill_scan(recipe, choices.direction, kFirstView)
+                                     : planned_scan(recipe, choices.direction, kFirstView);
+  if (choices.perspective) {
+    frame_perspective(command, resolution.bounds, resolution.pixel_size, choices);
+  } else {
+    frame_parallel(command, resolution.bounds, resolution.pixel_size, choices);
+  }
+  command.scan.camera.clip_planes = choices.clip_planes;
+  command.scan.region = choices.region;
+  if (choices.point_size) command.scan.point_size = *choices.point_size;
+  choose_passes(command, choices, resolution.pixel_size);
+  return command;
+}
+
+}  // namespace rangezip::app
