@@ -1,6 +1,7 @@
 #include "raster_cpu/cpu_rasterizer.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "core/base/parallel.h"
 #include "raster_cpu/fixed_point.h"
@@ -100,6 +101,17 @@ class ItemPainter {
 
 }  // namespace
 
+/// Memory that is kept from call to call.
+struct CpuRasterizer::Workspace {
+  std::vector<std::vector<PixelKey>> keys;  ///< one buffer per part of the scene
+  std::vector<SnappedPosition> snapped;
+  std::vector<std::uint32_t> counts;
+  RowBins bins;
+};
+
+CpuRasterizer::CpuRasterizer() : workspace_(std::make_unique<Workspace>()) {}
+CpuRasterizer::~CpuRasterizer() = default;
+
 RasterizerInfo CpuRasterizer::info() const {
   return {.name = "cpu",
           .max_extent = {kMaxRasterExtent, kMaxRasterExtent},
@@ -111,23 +123,24 @@ RasterizerInfo CpuRasterizer::info() const {
 DrawReport CpuRasterizer::draw(const View& view, std::span<const DrawItem> items,
                                const DepthBand* band, Framebuffer& out) {
   const std::size_t pixels = view.extent().count();
+  auto& keys = workspace_->keys;
   const std::size_t parts = part_count(items, view.extent());
-  keys_.resize(std::max(keys_.size(), parts));
+  keys.resize(std::max(keys.size(), parts));
   parallel_for(parts, 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t part = first; part < last; ++part)
-      keys_[part].assign(pixels, kEmptyPixel);
+      keys[part].assign(pixels, kEmptyPixel);
   });
-  ItemPainter painter(view, band, keys_, parts, snapped_);
+  ItemPainter painter(view, band, keys, parts, workspace_->snapped);
   for (const DrawItem& item : items)
     std::visit(painter, item);
   constexpr std::size_t kGrain = std::size_t{1} << 16;
   parallel_for(pixels, kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t part = 1; part < parts; ++part) {
-      merge_keys(std::span(keys_[0]).subspan(begin, end - begin),
-                 std::span(keys_[part]).subspan(begin, end - begin));
+      merge_keys(std::span(keys[0]).subspan(begin, end - begin),
+                 std::span(keys[part]).subspan(begin, end - begin));
     }
   });
-  unpack_keys(keys_[0], view.extent(), out);
+  unpack_keys(keys[0], view.extent(), out);
   return painter.report();
 }
 
@@ -145,15 +158,14 @@ DrawReport CpuRasterizer::do_accumulate(const View& view, std::span<const DrawIt
                                         const AccumulateWindow& window, Grid<PixelMoments>& out) {
   const Extent extent = view.extent();
   out.reset(extent);
-  counts_.assign(extent.count(), 0);
+  workspace_->counts.assign(extent.count(), 0);
   const MomentTarget target{
-      .extent = extent, .window = &window, .moments = out.pixels(), .counts = counts_};
-  // Private sums per thread would cost 80 bytes a pixel each. Instead a chunk of points is
-  // snapped by all threads, then each thread adds the whole chunk to its own rows of pixels.
-  constexpr std::size_t kChunk = std::size_t{1} << 16;
-  const auto height = static_cast<std::size_t>(extent.height);
-  const std::size_t rows_per_band = blocks_in(height, static_cast<std::size_t>(thread_count()));
-  snapped_.resize(std::max(snapped_.size(), kChunk));
+      .extent = extent, .window = &window, .moments = out.pixels(), .counts = workspace_->counts};
+  // Private sums per thread would cost 80 bytes a pixel each. Instead all threads snap a chunk of
+  // points, which are sorted by rows of pixels, and then each thread adds to rows of its own.
+  constexpr std::size_t kChunk = std::size_t{1} << 20;
+  const auto bins = blocks_in(static_cast<std::size_t>(extent.height), RowBins::kRows);
+  const std::size_t bins_per_thread = blocks_in(bins, static_cast<std::size_t>(thread_count()));
   DrawReport report;
   for (const DrawItem& item : items) {
     const auto* points = std::get_if<DrawPoints>(&item);
@@ -161,12 +173,16 @@ DrawReport CpuRasterizer::do_accumulate(const View& view, std::span<const DrawIt
     const RowTransform rows = make_row_transform(view, points->world_from_item);
     for (std::size_t at = 0; at < points->positions.size(); at += kChunk) {
       const std::size_t count = std::min(kChunk, points->positions.size() - at);
-      const auto snapped = std::span(snapped_).first(count);
+      workspace_->snapped.resize(std::max(workspace_->snapped.size(), count));
+      const auto snapped = std::span(workspace_->snapped).first(count);
       report.dropped_points +=
           snap_in_parallel(rows, points->positions.subspan(at, count), snapped);
       const auto votes = points->votes.empty() ? points->votes : points->votes.subspan(at, count);
-      parallel_for(height, rows_per_band, [&](std::size_t begin, std::size_t end) {
-        add_moments(snapped, votes, {static_cast<int>(begin), static_cast<int>(end) - 1}, target);
+      workspace_->bins.fill(snapped, votes, extent);
+      parallel_for(bins, bins_per_thread, [&](std::size_t begin, std::size_t end) {
+        const int first = static_cast<int>(begin) * RowBins::kRows;
+        const int last = std::min(static_cast<int>(end) * RowBins::kRows, extent.height);
+        add_moments(workspace_->bins.touching(first, last), {first, last - 1}, target);
       });
     }
   }

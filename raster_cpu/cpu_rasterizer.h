@@ -1,10 +1,8 @@
 #pragma once
 
-#include <cstdint>
-#include <vector>
+#include <memory>
 
 #include "core/raster/rasterizer.h"
-#include "core/raster/row_transform.h"
 
 namespace rangezip {
 
@@ -12,10 +10,12 @@ namespace rangezip {
 /// enclosing run_with_threads(); the image never depends on their number.
 ///
 /// Keeps its working memory from call to call: 8 bytes a pixel (times the threads that draw, for
-/// large scenes) and 12 bytes a corner of the largest item.
+/// large scenes) and 12 bytes a corner of the largest item; accumulate() takes 4 bytes a pixel and
+/// at most 28 MB.
 class CpuRasterizer final : public Rasterizer {
  public:
-  CpuRasterizer() = default;
+  CpuRasterizer();
+  ~CpuRasterizer() override;
 
   [[nodiscard]] RasterizerInfo info() const override;
 
@@ -30,9 +30,8 @@ class CpuRasterizer final : public Rasterizer {
   DrawReport draw(const View& view, std::span<const DrawItem> items, const DepthBand* band,
                   Framebuffer& out);
 
-  std::vector<std::vector<std::uint64_t>> keys_;  ///< one buffer per part of the scene
-  std::vector<SnappedPosition> snapped_;
-  std::vector<std::uint32_t> counts_;
+  struct Workspace;
+  std::unique_ptr<Workspace> workspace_;
 };
 
 }  // namespace rangezip

@@ -34,32 +34,70 @@ void add_term(PixelMoments& sums, std::int32_t dx, std::int32_t dy, std::int64_t
   sums.w_vote += std::int64_t{w} * vote;
 }
 
+/// The lower and left one of the pixels whose centres lie less than a pixel away. -1 is the one
+/// before the first.
+int first_near(std::int32_t coordinate) {
+  return (coordinate - kHalfPixel) >> kSubpixelBits;
+}
+
+bool is_summed(const SnappedPosition& p, Extent extent) {
+  const int x = first_near(p.x);
+  const int y = first_near(p.y);
+  return x >= -1 && x < extent.width && y >= -1 && y < extent.height &&
+         static_cast<std::uint32_t>(p.z) <= kMaxDepth;
+}
+
+/// A point touches the rows first_near(y) and first_near(y) + 1; the upper one chooses the bin, so
+/// bin k touches the rows from k * kRows - 1 to (k + 1) * kRows - 1.
+std::size_t bin_of(const SnappedPosition& p) {
+  return static_cast<std::size_t>((first_near(p.y) + 1) / RowBins::kRows);
+}
+
 }  // namespace
 
-void add_moments(std::span<const SnappedPosition> points, std::span<const std::int8_t> votes,
-                 PixelRange rows, const MomentTarget& target) {
+void RowBins::fill(std::span<const SnappedPosition> points, std::span<const std::int8_t> votes,
+                   Extent extent) {
+  // A counting sort: sizes, starts, then every point to the next place of its bin.
+  const auto bins = static_cast<std::size_t>(extent.height / kRows) + 1;
+  starts_.assign(bins + 1, 0);
+  for (const SnappedPosition& p : points) {
+    if (is_summed(p, extent)) ++starts_[bin_of(p) + 1];
+  }
+  for (std::size_t k = 0; k < bins; ++k)
+    starts_[k + 1] += starts_[k];
+  points_.resize(starts_[bins]);
+  std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!is_summed(points[i], extent)) continue;
+    points_[next[bin_of(points[i])]++] = {points[i], votes.empty() ? 0 : votes[i]};
+  }
+}
+
+std::span<const RowBins::Point> RowBins::touching(int first, int last) const {
+  const auto first_bin = static_cast<std::size_t>(first / kRows);
+  const auto last_bin = static_cast<std::size_t>(last / kRows);
+  return std::span(points_).subspan(starts_[first_bin], starts_[last_bin + 1] - starts_[first_bin]);
+}
+
+void add_moments(std::span<const RowBins::Point> points, PixelRange rows,
+                 const MomentTarget& target) {
   const AccumulateWindow& window = *target.window;
   const auto lower = window.band.lower.pixels();
   const auto upper = window.band.upper.pixels();
   const auto reference = window.reference.pixels();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const SnappedPosition& p = points[i];
-    if (is_rejected(p) || static_cast<std::uint32_t>(p.z) > kMaxDepth) continue;
-    // The centres less than a pixel away: two along each axis, or one if the point is level
-    // with it.
-    const PixelRange near_x = centers_between(p.x - kSubpixels + 1, p.x + kSubpixels - 1);
-    const PixelRange near_y = centers_between(p.y - kSubpixels + 1, p.y + kSubpixels - 1);
-    const PixelRange columns = on_screen(near_x, target.extent.width);
-    const int first_row = std::max(near_y.first, rows.first);
-    const int last_row = std::min(near_y.last, rows.last);
-    const int vote = votes.empty() ? 0 : votes[i];
-    for (int y = first_row; y <= last_row; ++y) {
-      for (int x = columns.first; x <= columns.last; ++x) {
+  for (const auto& [p, vote] : points) {
+    const int x0 = first_near(p.x);
+    const int y0 = first_near(p.y);
+    for (int y = std::max(y0, rows.first); y <= std::min(y0 + 1, rows.last); ++y) {
+      const std::int32_t dy = p.y - pixel_center(y);
+      for (int x = std::max(x0, 0); x <= std::min(x0 + 1, target.extent.width - 1); ++x) {
+        const std::int32_t dx = p.x - pixel_center(x);
         const std::size_t pixel = target.extent.index({x, y});
         if (p.z < lower[pixel] || p.z > upper[pixel]) continue;
+        if (dx == -kSubpixels || dy == -kSubpixels) continue;  // a whole pixel away: no weight
         if (++target.counts[pixel] > kMaxPointsPerPixel) throw_too_many(target, pixel);
         const std::int64_t z = (std::int64_t{p.z} - reference[pixel]) >> window.shift;
-        add_term(target.moments[pixel], p.x - pixel_center(x), p.y - pixel_center(y), z, vote);
+        add_term(target.moments[pixel], dx, dy, z, vote);
       }
     }
   }

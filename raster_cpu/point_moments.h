@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "core/base/grid.h"
 #include "core/raster/framebuffer.h"
@@ -13,6 +14,31 @@ namespace rangezip {
 /// Most points that one pixel may sum: more could overflow its 64-bit sums (R13).
 inline constexpr std::uint32_t kMaxPointsPerPixel = 1U << 19U;
 
+/// The visible points of a chunk, sorted by pixel rows. Sums take 80 bytes a pixel, so points in
+/// the order of a file would miss the cache four times each; rows of one bin stay in it (random
+/// order, 1024 x 1024 pixels: 4.5 million points a second without bins, 12 with them).
+class RowBins {
+ public:
+  /// Rows of pixels per bin.
+  static constexpr int kRows = 4;
+
+  /// @param votes one a point, or empty
+  void fill(std::span<const SnappedPosition> points, std::span<const std::int8_t> votes,
+            Extent extent);
+
+  struct Point {
+    SnappedPosition at;
+    std::int32_t vote = 0;
+  };
+  /// All points that touch the pixel rows [first, last), and some that do not.
+  /// @pre first and last are multiples of kRows, or last is the height
+  [[nodiscard]] std::span<const Point> touching(int first, int last) const;
+
+ private:
+  std::vector<Point> points_;
+  std::vector<std::size_t> starts_;  ///< bin k is [starts_[k], starts_[k + 1])
+};
+
 /// Sums of R13 and how many points each pixel has taken.
 struct MomentTarget {
   Extent extent;
@@ -21,10 +47,9 @@ struct MomentTarget {
   std::span<std::uint32_t> counts;
 };
 
-/// R13 for the pixel rows of `rows` only: bands of rows share no pixel, so each may have a thread.
-/// @param votes one a point, or empty
+/// R13 for the pixel rows in `rows` only: bands of rows share no pixel, so each may have a thread.
 /// @throws Error if a pixel takes more than kMaxPointsPerPixel points
-void add_moments(std::span<const SnappedPosition> points, std::span<const std::int8_t> votes,
-                 PixelRange rows, const MomentTarget& target);
+void add_moments(std::span<const RowBins::Point> points, PixelRange rows,
+                 const MomentTarget& target);
 
 }  // namespace rangezip
