@@ -39,7 +39,8 @@ struct StitchReport {
   std::size_t skipped_segments = 0;   ///< zipper: that leave the sheet
   std::size_t flipped_edges = 0;
   std::size_t collapsed_edges = 0;
-  std::size_t opened_fans = 0;  ///< faces removed because they touched in one vertex only
+  std::size_t opened_fans = 0;     ///< faces removed because they touched in one vertex only
+  std::size_t split_vertices = 0;  ///< made for larger fans that touched in one vertex only
   std::size_t dropped_components = 0;
   std::size_t dropped_faces = 0;  ///< of those components
 };
@@ -61,7 +62,10 @@ struct StitchResult {
 /// flip the edges they cross, removes what is inside, and collapses short edges in the seam
 /// [Kobbelt, Botsch 2000, 4.4; Turk, Levoy 1994].
 ///
-/// @throws TopologyError if `mesh` is not oriented and edge-manifold.
+/// Pieces are dropped only where this stitch changed them. An empty patch changes nothing.
+///
+/// @throws TopologyError if `mesh` has an index out of range or is not oriented and manifold; the
+///     latter is looked at near the patch only, since the rest is not touched.
 /// Cost: O(faces of mesh + patch + pixels), strip O(n log n).
 [[nodiscard]] StitchResult stitch(TriangleMesh mesh, const Scan& scan,
                                   const StitchOptions& options = {});

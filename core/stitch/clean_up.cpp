@@ -1,0 +1,218 @@
+#include "core/stitch/clean_up.h"
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+
+namespace rangezip {
+
+namespace {
+
+/// Fans of at most this many faces are crumbs of the strip or of cut old faces.
+constexpr std::uint32_t kSmallFan = 2;
+
+/// Removing a fan can part another one; after these rounds what is left is split.
+constexpr int kRounds = 5;
+
+/// The faces around each touched vertex, in the order of their indices.
+class Stars {
+ public:
+  Stars(const TriangleMesh& mesh, const std::vector<std::uint8_t>& touched)
+      : begins_(mesh.positions.size() + 1, 0) {
+    for (const Triangle& face : mesh.triangles) {
+      for (const std::uint32_t v : face)
+        begins_[v + 1] += touched[v];
+    }
+    std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
+    faces_.resize(begins_.back());
+    std::vector<std::uint32_t> ends = begins_;
+    for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+      for (const std::uint32_t v : mesh.triangles[f]) {
+        if (touched[v] != 0) faces_[ends[v]++] = f;
+      }
+    }
+  }
+
+  [[nodiscard]] std::span<const std::uint32_t> of(std::size_t vertex) const {
+    return std::span(faces_).subspan(begins_[vertex], begins_[vertex + 1] - begins_[vertex]);
+  }
+
+ private:
+  std::vector<std::uint32_t> begins_;
+  std::vector<std::uint32_t> faces_;
+};
+
+std::uint32_t find_root(std::vector<std::uint32_t>& parent, std::uint32_t i) {
+  while (parent[i] != i) {
+    parent[i] = parent[parent[i]];
+    i = parent[i];
+  }
+  return i;
+}
+
+/// The lower root becomes that of both.
+void join(std::vector<std::uint32_t>& parent, std::uint32_t i, std::uint32_t j) {
+  i = find_root(parent, i);
+  j = find_root(parent, j);
+  parent[std::max(i, j)] = std::min(i, j);
+}
+
+std::size_t corner_of(const Triangle& face, std::uint32_t vertex) {
+  return face[0] == vertex ? 0 : face[1] == vertex ? 1 : 2;
+}
+
+/// The fans around one vertex: faces of a star that are joined over edges at the vertex.
+class Fans {
+ public:
+  void find(const TriangleMesh& mesh, std::uint32_t vertex, std::span<const std::uint32_t> star) {
+    const auto count = static_cast<std::uint32_t>(star.size());
+    parent_.resize(count);
+    std::iota(parent_.begin(), parent_.end(), 0U);
+    leaving_.clear();
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const Triangle& face = mesh.triangles[star[i]];
+      leaving_.push_back({face[(corner_of(face, vertex) + 1) % 3], i});
+    }
+    std::sort(leaving_.begin(), leaving_.end());
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const Triangle& face = mesh.triangles[star[i]];
+      const std::uint32_t arriving = face[(corner_of(face, vertex) + 2) % 3];
+      const auto other = std::lower_bound(leaving_.begin(), leaving_.end(),
+                                          std::pair<std::uint32_t, std::uint32_t>{arriving, 0});
+      if (other != leaving_.end() && other->first == arriving) join(parent_, i, other->second);
+    }
+    sizes_.assign(count, 0);
+    fans_ = 0;
+    largest_ = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint32_t root = find_root(parent_, i);
+      if (sizes_[root]++ == 0) ++fans_;
+    }
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (sizes_[i] > sizes_[largest_]) largest_ = i;
+    }
+  }
+
+  [[nodiscard]] std::uint32_t count() const { return fans_; }
+  [[nodiscard]] std::uint32_t fan_of(std::uint32_t i) { return find_root(parent_, i); }
+  [[nodiscard]] bool is_largest(std::uint32_t i) { return fan_of(i) == largest_; }
+  [[nodiscard]] std::uint32_t size_of(std::uint32_t i) { return sizes_[fan_of(i)]; }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+  std::vector<std::uint32_t> sizes_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> leaving_;  ///< next corner, place in star
+  std::uint32_t fans_ = 0;
+  std::uint32_t largest_ = 0;
+};
+
+void remove_marked(TriangleMesh& mesh, const std::vector<std::uint8_t>& marked) {
+  std::size_t kept = 0;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    if (marked[f] == 0) mesh.triangles[kept++] = mesh.triangles[f];
+  }
+  mesh.triangles.resize(kept);
+}
+
+/// One round of removing small fans; how many faces went. Their corners become touched.
+std::size_t remove_small_fans(TriangleMesh& mesh, const Stars& stars,
+                              std::vector<std::uint8_t>& touched) {
+  std::vector<std::uint8_t> removed(mesh.triangles.size(), 0);
+  std::size_t count = 0;
+  Fans fans;
+  for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+    const auto star = stars.of(v);
+    if (star.size() < 2) continue;
+    fans.find(mesh, v, star);
+    if (fans.count() < 2) continue;
+    for (std::uint32_t i = 0; i < star.size(); ++i) {
+      if (fans.is_largest(i) || fans.size_of(i) > kSmallFan || removed[star[i]] != 0) continue;
+      removed[star[i]] = 1;
+      ++count;
+    }
+  }
+  if (count == 0) return 0;
+  for (std::size_t f = 0; f < removed.size(); ++f) {
+    if (removed[f] == 0) continue;
+    for (const std::uint32_t v : mesh.triangles[f])
+      touched[v] = 1;
+  }
+  remove_marked(mesh, removed);
+  return count;
+}
+
+std::uint32_t copy_vertex(TriangleMesh& mesh, std::uint32_t vertex) {
+  mesh.positions.push_back(Vec3(mesh.positions[vertex]));
+  if (!mesh.sources.empty()) mesh.sources.push_back(VertexSource(mesh.sources[vertex]));
+  return static_cast<std::uint32_t>(mesh.positions.size() - 1);
+}
+
+/// Gives every fan but the largest a vertex of its own; how many were made.
+std::size_t split_fans(TriangleMesh& mesh, const Stars& stars, std::vector<std::uint8_t>& touched) {
+  const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
+  Fans fans;
+  std::vector<std::uint32_t> copies;
+  for (std::uint32_t v = 0; v < vertices; ++v) {
+    const auto star = stars.of(v);
+    if (star.size() < 2) continue;
+    fans.find(mesh, v, star);
+    if (fans.count() < 2) continue;
+    copies.assign(star.size(), v);
+    for (std::uint32_t i = 0; i < star.size(); ++i) {
+      if (fans.is_largest(i)) continue;
+      std::uint32_t& copy = copies[fans.fan_of(i)];
+      if (copy == v) copy = copy_vertex(mesh, v);
+      Triangle& face = mesh.triangles[star[i]];
+      face[corner_of(face, v)] = copy;
+    }
+  }
+  touched.resize(mesh.positions.size(), 1);
+  return mesh.positions.size() - vertices;
+}
+
+void drop_small_components(TriangleMesh& mesh, const std::vector<std::uint8_t>& touched,
+                           std::size_t min_component, CleanUpReport& report) {
+  std::vector<std::uint32_t> parent(mesh.positions.size());
+  std::iota(parent.begin(), parent.end(), 0U);
+  for (const Triangle& face : mesh.triangles) {
+    join(parent, face[0], face[1]);
+    join(parent, face[1], face[2]);
+  }
+  std::vector<std::uint32_t> faces(mesh.positions.size(), 0);
+  for (const Triangle& face : mesh.triangles)
+    ++faces[find_root(parent, face[0])];
+  std::vector<std::uint8_t> is_touched(mesh.positions.size(), 0);
+  for (std::uint32_t v = 0; v < touched.size(); ++v) {
+    if (touched[v] != 0) is_touched[find_root(parent, v)] = 1;
+  }
+  std::vector<std::uint8_t> is_small(mesh.positions.size(), 0);
+  for (std::size_t v = 0; v < faces.size(); ++v) {
+    if (faces[v] == 0 || faces[v] >= min_component || is_touched[v] == 0) continue;
+    is_small[v] = 1;
+    ++report.dropped_components;
+    report.dropped_faces += faces[v];
+  }
+  if (report.dropped_components == 0) return;
+  std::erase_if(mesh.triangles,
+                [&](const Triangle& face) { return is_small[find_root(parent, face[0])] != 0; });
+}
+
+}  // namespace
+
+CleanUpReport clean_up(TriangleMesh& mesh, std::vector<std::uint8_t> touched,
+                       std::size_t min_component) {
+  CleanUpReport report;
+  Stars stars(mesh, touched);
+  for (int round = 0; round < kRounds; ++round) {
+    const std::size_t removed = remove_small_fans(mesh, stars, touched);
+    if (removed == 0) break;
+    report.opened_fans += removed;
+    stars = Stars(mesh, touched);
+  }
+  report.split_vertices = split_fans(mesh, stars, touched);
+  drop_small_components(mesh, touched, min_component, report);
+  remove_unused_vertices(mesh);
+  return report;
+}
+
+}  // namespace rangezip

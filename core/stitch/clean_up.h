@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/mesh/triangle_mesh.h"
+
+namespace rangezip {
+
+struct CleanUpReport {
+  std::size_t opened_fans = 0;     ///< faces removed because they touched in one vertex only
+  std::size_t split_vertices = 0;  ///< made for fans that stay
+  std::size_t dropped_components = 0;
+  std::size_t dropped_faces = 0;  ///< of those components
+};
+
+/// Makes every touched vertex manifold. Of the fans of faces around one, all but the largest are
+/// removed if they have at most two faces; larger ones get a vertex of their own at the same
+/// place. Then drops the connected pieces with a touched vertex and fewer than `min_component`
+/// faces, and all unused vertices. What is nowhere near a touched vertex stays as it is.
+///
+/// @param touched one per vertex: 1 where faces came or went
+/// @pre no directed edge in two faces, and vertices not touched are manifold
+[[nodiscard]] CleanUpReport clean_up(TriangleMesh& mesh, std::vector<std::uint8_t> touched,
+                                     std::size_t min_component);
+
+}  // namespace rangezip

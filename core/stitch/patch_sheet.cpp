@@ -1,0 +1,154 @@
+#include "core/stitch/patch_sheet.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rangezip {
+
+namespace {
+
+/// Bands stop growing at this slope (the tangent of 76 degrees): beyond it a band would reach
+/// other sheets.
+constexpr double kMaxBandSlope = 4.0;
+
+double limited_stretch(const glm::dvec2& slope) {
+  return std::min(stretch_of(slope), std::sqrt(1.0 + kMaxBandSlope * kMaxBandSlope));
+}
+
+}  // namespace
+
+PatchSheet::PatchSheet(const Scan& scan, int radius) : image_(&scan.image), radius_(radius) {
+  const std::vector<Pixel>& pixels = scan.patch.pixels;
+  if (pixels.empty()) return;
+  first_ = last_ = pixels.front();
+  for (const Pixel p : pixels) {
+    first_ = {std::min(first_.x, p.x), std::min(first_.y, p.y)};
+    last_ = {std::max(last_.x, p.x), std::max(last_.y, p.y)};
+  }
+  const Extent extent = image_->extent();
+  const int margin = radius + 1;
+  origin_ = {std::max(0, first_.x - margin), std::max(0, first_.y - margin)};
+  const Pixel end{std::min(extent.width, last_.x + margin + 1),
+                  std::min(extent.height, last_.y + margin + 1)};
+  samples_.reset({end.x - origin_.x, end.y - origin_.y});
+  add_cells(scan.patch);
+  grow(add_samples(scan), scan.slopes);
+}
+
+void PatchSheet::add_cells(const Patch& patch) {
+  for (const Triangle& triangle : patch.mesh.triangles) {
+    Pixel lower = patch.pixels[triangle[0]];
+    for (const std::uint32_t corner : triangle) {
+      const Pixel p = patch.pixels[corner];
+      lower = {std::min(lower.x, p.x), std::min(lower.y, p.y)};
+    }
+    // The corner of the cell that the triangle lacks tells which of the four it is.
+    const Pixel upper{lower.x, lower.y + 1};
+    const Pixel opposite{lower.x + 1, lower.y + 1};
+    const auto lacks = [&](Pixel corner) {
+      return std::none_of(triangle.begin(), triangle.end(),
+                          [&](std::uint32_t v) { return patch.pixels[v] == corner; });
+    };
+    std::uint8_t& cell = at(lower).cell;
+    if (lacks(opposite)) {
+      cell |= kLowerTriangle | kFallingDiagonal;
+    } else if (lacks(lower)) {
+      cell |= kUpperTriangle | kFallingDiagonal;
+    } else {
+      cell |= lacks(upper) ? kLowerTriangle : kUpperTriangle;
+    }
+  }
+}
+
+std::vector<Pixel> PatchSheet::add_samples(const Scan& scan) {
+  std::vector<Pixel> front;
+  for (const Triangle& triangle : scan.patch.mesh.triangles) {
+    for (const std::uint32_t corner : triangle) {
+      const Pixel p = scan.patch.pixels[corner];
+      SheetSample& sample = at(p);
+      if (sample.ring == 0) continue;
+      sample.ring = 0;
+      sample.depth = scan.image[p];
+      sample.slope = scan.slopes[p];
+      sample.stretch = limited_stretch(sample.slope);
+      front.push_back(p);
+    }
+  }
+  return front;
+}
+
+/// Continues the sheet ring by ring.
+void PatchSheet::grow(std::vector<Pixel> front, const SlopeImage& slopes) {
+  constexpr double kStepTolerance = 1.5;  // of pixel side times stretch: no step of depth
+  std::vector<Pixel> next;
+  for (int ring = 1; ring <= radius_; ++ring, front.swap(next)) {
+    next.clear();
+    for (const Pixel p : front) {
+      for (int k = 0; k < 9; ++k) {
+        const Pixel q{p.x + k % 3 - 1, p.y + k / 3 - 1};
+        const Pixel local{q.x - origin_.x, q.y - origin_.y};
+        if (!samples_.extent().contains(local)) continue;
+        SheetSample& sample = samples_[local];
+        if (sample.ring != SheetSample::kUnknown) continue;
+        const SheetSample& known = (*this)[p];
+        const double side = image_->view().pixel_size(known.depth);
+        sample.ring = static_cast<std::uint8_t>(ring);
+        sample.depth =
+            known.depth + side * ((q.x - p.x) * known.slope.x + (q.y - p.y) * known.slope.y);
+        sample.slope = known.slope;
+        const double measured = (*image_)[q];
+        if (std::abs(measured - sample.depth) < kStepTolerance * side * known.stretch) {
+          sample.depth = measured;
+          sample.slope = slopes[q];
+        }
+        sample.stretch = limited_stretch(sample.slope);
+        next.push_back(q);
+      }
+    }
+  }
+}
+
+bool PatchSheet::covers(const Vec2& place) const {
+  const Pixel p{static_cast<int>(std::floor(place.x)), static_cast<int>(std::floor(place.y))};
+  const std::uint8_t cell = (*this)[p].cell;
+  if ((cell & kBothTriangles) == 0) return false;
+  const double x = place.x - p.x;
+  const double y = place.y - p.y;
+  const bool is_lower = (cell & kFallingDiagonal) != 0 ? x + y <= 1.0 : y <= x;
+  return (cell & (is_lower ? kLowerTriangle : kUpperTriangle)) != 0;
+}
+
+bool PatchSheet::has_edge(Pixel from, Pixel to) const {
+  const int dx = to.x - from.x;
+  const int dy = to.y - from.y;
+  // The cell to the left of the edge, and which of its triangles has it, under a falling (from
+  // upper left to lower right) or a rising diagonal.
+  const auto cell_has = [&](Pixel p, std::uint8_t if_falling, std::uint8_t if_rising) {
+    const std::uint8_t cell = (*this)[p].cell;
+    return (cell & ((cell & kFallingDiagonal) != 0 ? if_falling : if_rising)) != 0;
+  };
+  constexpr std::uint8_t kNeither = 0;
+  if (dy == 0) {
+    return dx > 0 ? cell_has(from, kLowerTriangle, kLowerTriangle)
+                  : cell_has({to.x, to.y - 1}, kUpperTriangle, kUpperTriangle);
+  }
+  if (dx == 0) {
+    return dy > 0 ? cell_has({from.x - 1, from.y}, kUpperTriangle, kLowerTriangle)
+                  : cell_has(to, kLowerTriangle, kUpperTriangle);
+  }
+  if (dx == dy) {
+    return dx > 0 ? cell_has(from, kNeither, kUpperTriangle)
+                  : cell_has(to, kNeither, kLowerTriangle);
+  }
+  return dx < 0 ? cell_has({to.x, from.y}, kLowerTriangle, kNeither)
+                : cell_has({from.x, to.y}, kUpperTriangle, kNeither);
+}
+
+double PatchSheet::depth_at(const Vec2& place, Pixel pixel) const {
+  const SheetSample& sample = (*this)[pixel];
+  const double side = image_->view().pixel_size(sample.depth);
+  return sample.depth +
+         side * ((place.x - pixel.x) * sample.slope.x + (place.y - pixel.y) * sample.slope.y);
+}
+
+}  // namespace rangezip
