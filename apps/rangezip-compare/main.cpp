@@ -16,7 +16,7 @@ using namespace rangezip;
 using namespace rangezip::compare;
 
 /// The numbers that `rangezip` returns for the same things.
-enum ExitCode { kGood = 0, kUsage = 1, kBadInput = 2, kBadOutput = 3, kBad = 5, kFailure = 6 };
+enum ExitCode { good = 0, usage = 1, bad_input = 2, bad_output = 3, bad = 5, failure = 6 };
 
 constexpr const char* kFooter =
     "Exit codes: 0 the mesh is clean, or the images are identical; 1 wrong usage; 2 an input "
@@ -28,7 +28,7 @@ constexpr const char* kFooter =
 
 /// A usage error is one exit code here, whatever CLI11 calls it; asking for help is none.
 int report_parse_error(const CLI::App& app, const CLI::ParseError& error) {
-  return app.exit(error) == 0 ? kGood : kUsage;
+  return app.exit(error) == 0 ? good : usage;
 }
 
 int run(int argc, char** argv) {
@@ -63,9 +63,9 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return report_parse_error(app, error);
   }
-  const bool good = images->parsed() ? run_images_command(image[0], image[1], std::cout)
-                                     : run_mesh_command(mesh, std::cout);
-  return good ? kGood : kBad;
+  const bool is_good = images->parsed() ? run_images_command(image[0], image[1], std::cout)
+                                        : run_mesh_command(mesh, std::cout);
+  return is_good ? good : bad;
 }
 
 }  // namespace
@@ -75,12 +75,12 @@ int main(int argc, char** argv) {
     return run(argc, argv);
   } catch (const OutputError& error) {
     std::cerr << "rangezip-compare: " << error.what() << '\n';
-    return kBadOutput;
+    return bad_output;
   } catch (const IoError& error) {
     std::cerr << "rangezip-compare: " << error.what() << '\n';
-    return kBadInput;
+    return bad_input;
   } catch (const std::exception& error) {
     std::cerr << "rangezip-compare: " << error.what() << '\n';
-    return kFailure;
+    return failure;
   }
 }
