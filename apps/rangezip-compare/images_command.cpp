@@ -66,8 +66,8 @@ void print_diff(std::ostream& out, ImageKind kind, const GridDiff& diff) {
 
 }  // namespace
 
-bool run_images_command(const std::filesystem::path& reference,
-                        const std::filesystem::path& candidate, std::ostream& out) {
+bool run_images_command(const ImagesCommand& command, std::ostream& out) {
+  const auto& [reference, candidate] = command;
   const ImageKind kind = kind_of(reference);
   if (kind != kind_of(candidate)) {
     throw IoError(candidate.string() + ": must be of the same kind as " + reference.string());

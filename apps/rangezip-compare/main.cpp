@@ -1,13 +1,13 @@
 // rangezip-compare: the referee on the command line. Exit codes: see kFooter.
 #include <CLI/CLI.hpp>
-#include <array>
 #include <exception>
-#include <filesystem>
 #include <iostream>
 #include <string>
 
 #include "apps/rangezip-compare/images_command.h"
 #include "apps/rangezip-compare/mesh_command.h"
+#include "apps/rangezip-compare/output_error.h"
+#include "apps/rangezip-compare/sample_command.h"
 #include "core/base/error.h"
 
 namespace {
@@ -31,41 +31,65 @@ int report_parse_error(const CLI::App& app, const CLI::ParseError& error) {
   return app.exit(error) == 0 ? good : usage;
 }
 
+/// Each add_* describes one subcommand; the values land in the command it fills.
+CLI::App* add_mesh(CLI::App& app, MeshCommand& command) {
+  CLI::App* judge = app.add_subcommand(
+      "mesh", "Judge a mesh: manifold, oriented, self-intersections, distance to a truth");
+  judge->add_option("MESH", command.mesh, "PLY, OBJ, OFF or STL (.gz of each)")->required();
+  judge->add_option("--truth", command.truth, "Mesh to measure the distance to, both ways");
+  judge->add_option("--cloud", command.cloud, "Point cloud whose distance to the mesh is measured");
+  judge->add_option("--json", command.json,
+                    "Write the figures to this file; lengths are shares of the truth's (else the "
+                    "cloud's) diagonal");
+  judge->add_option("--samples", command.samples, "Samples of each surface")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  judge->add_option("--seed", command.seed, "Of the samples")->capture_default_str();
+  return judge;
+}
+
+CLI::App* add_images(CLI::App& app, ImagesCommand& command) {
+  CLI::App* images =
+      app.add_subcommand("images", "Compare two images that `rangezip scan` wrote, pixel by pixel");
+  images->add_option("REFERENCE", command.reference, "Depths (.pfm), IDs or a mask (.png)")
+      ->required();
+  images->add_option("CANDIDATE", command.candidate, "Another of the same kind and size")
+      ->required();
+  return images;
+}
+
+CLI::App* add_sample(CLI::App& app, SampleCommand& command) {
+  CLI::App* sample =
+      app.add_subcommand("sample", "Write a cloud of points spread evenly over a mesh");
+  sample->add_option("MESH", command.mesh, "PLY, OBJ, OFF or STL (.gz of each)")->required();
+  sample->add_option("-o,--output", command.cloud, "Text, one point a line")->required();
+  sample->add_option("--points", command.points, "How many")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  sample->add_option("--seed", command.seed, "Of their places")->capture_default_str();
+  return sample;
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"Judges what rangezip makes, with CGAL as an independent witness."};
   app.footer(kFooter);
   app.require_subcommand(1);
-
   MeshCommand mesh;
-  CLI::App* judge = app.add_subcommand(
-      "mesh", "Judge a mesh: manifold, oriented, self-intersections, distance to a truth");
-  judge->footer(kFooter);
-  judge->add_option("MESH", mesh.mesh, "PLY, OBJ, OFF or STL (.gz of each)")->required();
-  judge->add_option("--truth", mesh.truth, "Mesh to measure the distance to, both ways");
-  judge->add_option("--cloud", mesh.cloud, "Point cloud whose distance to the mesh is measured");
-  judge->add_option("--json", mesh.json,
-                    "Write the figures to this file; lengths are shares of "
-                    "the truth's (else the cloud's) diagonal");
-  judge->add_option("--samples", mesh.samples, "Samples of each surface")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  judge->add_option("--seed", mesh.seed, "Of the samples")->capture_default_str();
-
-  std::array<std::filesystem::path, 2> image;
-  CLI::App* images =
-      app.add_subcommand("images", "Compare two images that `rangezip scan` wrote, pixel by pixel");
-  images->footer(kFooter);
-  images->add_option("REFERENCE", image[0], "Depths (.pfm), IDs or a mask (.png)")->required();
-  images->add_option("CANDIDATE", image[1], "Another of the same kind and size")->required();
+  ImagesCommand images;
+  SampleCommand sample;
+  const CLI::App* judge_mesh = add_mesh(app, mesh);
+  const CLI::App* compare_images = add_images(app, images);
+  add_sample(app, sample);
 
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return report_parse_error(app, error);
   }
-  const bool is_good = images->parsed() ? run_images_command(image[0], image[1], std::cout)
-                                        : run_mesh_command(mesh, std::cout);
-  return is_good ? good : bad;
+  if (judge_mesh->parsed()) return run_mesh_command(mesh, std::cout) ? good : bad;
+  if (compare_images->parsed()) return run_images_command(images, std::cout) ? good : bad;
+  run_sample_command(sample);
+  return good;
 }
 
 }  // namespace

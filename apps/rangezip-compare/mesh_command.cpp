@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/rangezip-compare/output_error.h"
 #include "compare/mesh_distance.h"
 #include "compare/mesh_judge.h"
 #include "core/base/error.h"

@@ -6,14 +6,7 @@
 #include <iosfwd>
 #include <optional>
 
-#include "core/base/error.h"
-
 namespace rangezip::compare {
-
-/// The report cannot be written.
-class OutputError : public Error {
-  using Error::Error;
-};
 
 struct MeshCommand {
   std::filesystem::path mesh;

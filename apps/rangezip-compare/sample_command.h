@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+
+namespace rangezip::compare {
+
+struct SampleCommand {
+  std::filesystem::path mesh;
+  std::filesystem::path cloud;  ///< to write: text, "x y z" a line
+  std::size_t points = 400'000;
+  std::uint64_t seed = 1;
+};
+
+/// Writes points spread evenly over a mesh: a cloud whose true surface is known, for benchmarks.
+/// Every coordinate has the digits that give back the same double.
+/// @throws IoError if the mesh cannot be read, OutputError if the cloud cannot be written in full,
+///     TopologyError if the mesh has no area.
+void run_sample_command(const SampleCommand& command);
+
+}  // namespace rangezip::compare
