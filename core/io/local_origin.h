@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/base/geometry.h"
@@ -20,6 +21,13 @@ class LocalOrigin {
   /// Takes the next position of the file. @pre finite
   void add(const Vec3& position) {
     if (--until_next_ == 0) take(position);
+  }
+  /// Takes the next positions of the file. @pre finite
+  void add(std::span<const Vec3> block) {
+    std::size_t next = until_next_ - 1;
+    for (; next < block.size(); next += until_next_)
+      take(block[next]);
+    until_next_ = next - block.size() + 1;
   }
   /// (0, 0, 0) if nothing was added.
   [[nodiscard]] Vec3 origin() const;

@@ -1,10 +1,33 @@
 #include "core/io/raw_geometry.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "core/io/split_polygon.h"
 
 namespace rangezip {
+
+namespace {
+
+/// Box around all positions, unusable if one of them is: NaN stays NaN.
+Box bounds_of(std::span<const Vec3> positions) {
+  // Six plain numbers, which the compiler keeps in registers.
+  double x0 = positions[0].x, y0 = positions[0].y, z0 = positions[0].z;
+  double x1 = x0, y1 = y0, z1 = z0;
+  double sum = 0.0;  // NaN or infinite if a coordinate is
+  for (const Vec3& p : positions) {
+    sum += p.x * 0.0 + p.y * 0.0 + p.z * 0.0;
+    x0 = std::min(x0, p.x);
+    y0 = std::min(y0, p.y);
+    z0 = std::min(z0, p.z);
+    x1 = std::max(x1, p.x);
+    y1 = std::max(y1, p.y);
+    z1 = std::max(z1, p.z);
+  }
+  return {{x0 + sum, y0, z0}, {x1, y1, z1}};
+}
+
+}  // namespace
 
 void PositionList::add_unusable() {
   ++nonfinite_;
@@ -14,6 +37,27 @@ void PositionList::add_unusable() {
   } else {
     local_.emplace_back(Vec3{kNan});
   }
+}
+
+void PositionList::add(std::span<const Vec3> block) {
+  if (block.empty()) return;
+  const Box bounds = bounds_of(block);
+  if (!is_usable(bounds.lower) || !is_usable(bounds.upper)) {
+    for (const Vec3& p : block)
+      add(p);
+    return;
+  }
+  bounds_.add(bounds);
+  local_origin_.add(block);
+  if (is_exact_) {
+    exact_.insert(exact_.end(), block.begin(), block.end());
+    return;
+  }
+  const std::size_t before = local_.size();
+  local_.resize(before + block.size());
+  const Vec3 origin = origin_;
+  std::transform(block.begin(), block.end(), local_.begin() + static_cast<std::ptrdiff_t>(before),
+                 [&origin](const Vec3& p) { return Vec3f(p - origin); });
 }
 
 SplitPolygons split_polygons(const RawGeometry& geometry) {

@@ -29,9 +29,24 @@ void check_placement(const Mat4& m) {
   }
 }
 
+bool is_translation(const Mat4& m) {
+  return Mat3(m) == Mat3{1.0};
+}
+
 Box bounds_of(std::span<const Vec3f> positions, const Mat4& world_from_item) {
   Box bounds;
-  for (const Vec3f& p : positions) bounds.add(Vec3(world_from_item * Vec4(Vec3(p), 1.0)));
+  if (is_translation(world_from_item)) {
+    // Adding rounds in order, so the moved extremes are the extremes of what is moved.
+    Box local;
+    for (const Vec3f& p : positions)
+      local.add(Vec3(p));
+    if (local.is_empty()) return bounds;
+    bounds.add(Vec3(world_from_item * Vec4(local.lower, 1.0)));
+    bounds.add(Vec3(world_from_item * Vec4(local.upper, 1.0)));
+    return bounds;
+  }
+  for (const Vec3f& p : positions)
+    bounds.add(Vec3(world_from_item * Vec4(Vec3(p), 1.0)));
   return bounds;
 }
 
@@ -88,13 +103,13 @@ std::vector<DrawItem> Scene::draw_items(int point_size, std::span<const std::int
   for (const CloudItem& item : items_) {
     if (item.cloud) {
       const std::size_t count = item.cloud->positions.size();
-      drawn.emplace_back(DrawPoints{
-          .positions = item.cloud->positions,
-          .world_from_item = item.world_from_item,
-          .first_id = item.first_id,
-          .point_size = point_size,
-          .content_key = item.content_key,
-          .votes = votes.empty() ? votes : votes.subspan(first_point, count)});
+      drawn.emplace_back(
+          DrawPoints{.positions = item.cloud->positions,
+                     .world_from_item = item.world_from_item,
+                     .first_id = item.first_id,
+                     .point_size = point_size,
+                     .content_key = item.content_key,
+                     .votes = votes.empty() ? votes : votes.subspan(first_point, count)});
       first_point += count;
     } else {
       drawn.emplace_back(DrawTriangles{.positions = item.soup->positions,

@@ -107,6 +107,36 @@ TEST_CASE("read_input takes PLY coordinates of every type, in any order, in ever
   }
 }
 
+TEST_CASE("Binary points that are not finite are left out wherever they stand") {
+  const TemporaryFolder folder;
+  const std::string type = GENERATE("float", "double");
+  constexpr int kCount = 2000;  // several blocks of the reader
+  for (const int bad : {-1, 0, 511, 512, 1999}) {
+    CAPTURE(type, bad);
+    std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " +
+                        std::to_string(kCount) + "\nproperty " + type + " x\nproperty " + type +
+                        " y\nproperty uchar r\nproperty " + type + " z\nend_header\n";
+    std::vector<Vec3> expected;
+    for (int i = 0; i < kCount; ++i) {
+      const Vec3 p{0.25 * (i % 7), 0.5 * (i % 11),
+                   i == bad ? std::numeric_limits<double>::quiet_NaN() : 0.125 * (i % 5)};
+      append_as(bytes, type, p.x, "binary_little_endian");
+      append_as(bytes, type, p.y, "binary_little_endian");
+      bytes += 'r';
+      append_as(bytes, type, p.z, "binary_little_endian");
+      if (i != bad) expected.push_back(p);
+    }
+    const InputFile input = read_input(folder.store("a.ply", bytes));
+    CHECK(input.reports[0].nonfinite_points == (bad < 0 ? 0 : 1));
+    const auto& positions = input.items.at(0).cloud->positions;
+    REQUIRE(positions.size() == expected.size());
+    const Vec3 origin = input.reports[0].origin;
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      REQUIRE(Vec3(positions[i]) + origin == expected[i]);
+    }
+  }
+}
+
 TEST_CASE("write_mesh and read_mesh give back every bit of a PLY mesh") {
   const TemporaryFolder folder;
   const bool ascii = GENERATE(false, true);
