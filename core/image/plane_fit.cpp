@@ -176,6 +176,8 @@ PlaneFitResult fit_planes(Rasterizer& rasterizer, std::span<const DrawItem> item
   }
   PlaneFitResult result{.image = nearest, .slopes = slopes};
   const Mask fitted = pixels_won_by_points(framebuffer, items, nearest);
+  const std::span<const std::uint8_t> pixels = fitted.pixels();
+  if (std::find(pixels.begin(), pixels.end(), 1) == pixels.end()) return result;
   const AccumulateWindow window = make_window(nearest, slopes, fitted);
   Grid<PixelMoments> moments;
   rasterizer.accumulate(view, items, window, moments);

@@ -23,7 +23,10 @@ int centres_left_of(const Vec2& p, const Vec2& q, double y, int width) {
   // The crossing is only a first guess: the side of each centre is decided by the sign above.
   const double crossing =
       lower.x + (upper.x - lower.x) * ((y - lower.y) / (upper.y - lower.y)) - 0.5;
-  int count = static_cast<int>(std::clamp(std::ceil(crossing), 0.0, static_cast<double>(width)));
+  // Written so that an undefined guess, from corners of astronomic size, becomes 0.
+  int count = crossing > 0.0
+                  ? static_cast<int>(std::min(std::ceil(crossing), static_cast<double>(width)))
+                  : 0;
   while (count > 0 && !is_left(count - 1))
     --count;
   while (count < width && is_left(count))

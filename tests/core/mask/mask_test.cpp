@@ -69,6 +69,13 @@ TEST_CASE("mask_from_lasso agrees with the even-odd rule, ties and crossings inc
   }
 }
 
+TEST_CASE("mask_from_lasso takes corners far outside of the image", "[mask]") {
+  const std::vector<Vec2> around{{-1e9, -1e9}, {1e9, -1e9}, {1e9, 1e9}, {-1e9, 1e9}};
+  CHECK(mask_from_lasso({5, 4}, around) == full_mask({5, 4}));
+  const std::vector<Vec2> astronomic{{-1e308, -1e308}, {1e308, -1e308}, {0.0, 1e308}};
+  CHECK_NOTHROW(mask_from_lasso({5, 4}, astronomic));
+}
+
 TEST_CASE("mask_from_lasso refuses what is no polygon", "[mask]") {
   const std::vector<Vec2> two{{0, 0}, {1, 1}};
   CHECK_THROWS_AS(mask_from_lasso({4, 4}, two), InvalidArgument);
