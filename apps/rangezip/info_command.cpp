@@ -1,12 +1,14 @@
+#include <array>
 #include <filesystem>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "apps/rangezip/commands.h"
-#include "core/base/parallel.h"
+#include "core/finish/self_intersection.h"
 #include "core/io/input_file.h"
 #include "core/io/mesh_file.h"
+#include "core/io/session_file.h"
 #include "core/mesh/mesh_report.h"
 
 namespace rangezip::app {
@@ -15,6 +17,7 @@ namespace {
 
 struct InfoOptions {
   std::vector<std::filesystem::path> files;
+  bool check = false;
 };
 
 void print_line(Console& console, std::string_view name, const std::string& value) {
@@ -51,7 +54,7 @@ void print_input(Console& console, const InputReport& report) {
     print_line(console, "note", note);
 }
 
-void print_topology(Console& console, const TriangleMesh& mesh) {
+void print_topology(Console& console, const TriangleMesh& mesh, bool check) {
   const MeshReport report = report_mesh(mesh);
   print_count(console, "vertices in faces", report.vertices);
   print_count(console, "components", report.components);
@@ -64,6 +67,49 @@ void print_topology(Console& console, const TriangleMesh& mesh) {
   print_count(console, "non-manifold vertices", report.nonmanifold_vertices);
   print_count(console, "misoriented edges", report.misoriented_edges);
   print_nonzero(console, "degenerate faces", report.degenerate_faces);
+  if (check) print_count(console, "self-intersections", self_intersections(mesh).size());
+}
+
+std::string_view name_of(const Command& command) {
+  constexpr std::array<std::string_view, 6> kNames{"scan", "erase",  "smooth",
+                                                   "fill", "finish", "undo"};
+  static_assert(std::variant_size_v<Command> == kNames.size());
+  return kNames.at(command.index());
+}
+
+void print_session(Console& console, const std::filesystem::path& path) {
+  const SessionFile session = read_session(path);
+  console.print(path.string());
+  print_line(console, "format", fmt::format("session, version {}", kSessionFileVersion));
+  for (const SessionInput& input : session.inputs) {
+    print_line(console, "input", input.path.string());
+  }
+  for (const SessionInput& input : session.also_read) {
+    print_line(console, "also read", input.path.string());
+  }
+  if (session.initial_mesh) print_line(console, "mesh", session.initial_mesh->path.string());
+  if (session.points) print_count(console, "points", *session.points);
+  if (session.triangles) print_count(console, "triangles", *session.triangles);
+  // Runs of the same command on one line.
+  for (std::size_t i = 0; i < session.commands.size();) {
+    std::size_t end = i + 1;
+    while (end < session.commands.size() &&
+           session.commands[end].index() == session.commands[i].index()) {
+      ++end;
+    }
+    print_line(console, "command", fmt::format("{} x {}", end - i, name_of(session.commands[i])));
+    i = end;
+  }
+}
+
+void print_mesh_or_cloud(Console& console, const std::filesystem::path& path, bool check,
+                         const Progress& progress) {
+  const InputFile file = read_input(path, progress);
+  for (const InputReport& report : file.reports)
+    print_input(console, report);
+  // A .conf may list meshes, but is not one.
+  if (file.reports.size() != 1 || file.reports.front().triangles == 0) return;
+  print_topology(console, read_mesh(path), check);
 }
 
 void print_info(const InfoOptions& options, const Context& context) {
@@ -71,13 +117,11 @@ void print_info(const InfoOptions& options, const Context& context) {
   Progress progress;
   progress.stop = context.stop;
   for (const std::filesystem::path& path : options.files) {
-    const InputFile file = read_input(path, progress);
-    for (const InputReport& report : file.reports)
-      print_input(console, report);
-    bool has_faces = false;
-    for (const InputItem& item : file.items)
-      has_faces = has_faces || item.soup != nullptr;
-    if (has_faces) print_topology(console, read_mesh(path));
+    if (path.extension() == ".json") {
+      print_session(console, path);
+    } else {
+      print_mesh_or_cloud(console, path, options.check, progress);
+    }
   }
 }
 
@@ -88,6 +132,7 @@ void add_info_command(CLI::App& app, Action& action) {
   CLI::App& command = *app.add_subcommand("info", "Says what is in a cloud, a mesh or a session");
   command.add_option("FILE", options->files, "Of any type that 'mesh' reads, or a session (.json)")
       ->required();
+  command.add_flag("--check", options->check, "Count the pairs of faces that cross each other too");
   command.callback([options, &action] {
     action = [options](const Context& context) { print_info(*options, context); };
   });

@@ -63,7 +63,10 @@ int parse_and_run(int argc, char** argv) {
   app.footer(std::string("'rangezip COMMAND --help' lists the options of a command.\n\n") +
              kExitCodes);
   Action action;
+  add_mesh_command(app, action);
+  add_scan_command(app, action);
   add_render_command(app, action);
+  add_play_command(app, action);
   add_info_command(app, action);
   try {
     app.parse(argc, argv);

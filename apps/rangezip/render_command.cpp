@@ -21,7 +21,6 @@ struct RenderOptions {
   std::filesystem::path output;
   Vec3 direction{0.3, 0.25, 1.0};
   std::optional<Vec3> up;
-  std::optional<double> perspective;  // degrees
   bool only_points = false;
   PictureOptions picture;
   CommonOptions common;
@@ -71,7 +70,7 @@ void render(const RenderOptions& options, const Context& context) {
 
   const PictureContent content = read_content(options, progress);
   const Camera camera =
-      frame_picture(bounds_of(content), options.direction, options.picture.extent, options.up);
+      frame_picture(content, options.direction, options.picture.extent, options.up);
   const Picture picture = draw_picture(*rasterizer, content, camera, options.picture);
   progress.check_stop();
   write_output([&] { write_rgb_png(options.output, picture); });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "core/base/error.h"
@@ -20,10 +21,30 @@ constexpr double kHollowRadius = 0.03;  ///< of the picture's height
 constexpr Vec3f kEdgeColor{0.02F, 0.03F, 0.05F};
 constexpr Vec3f kBoundaryColor{0.75F, 0.0F, 0.04F};
 
-void check_options(const PictureContent& content, const PictureOptions& options) {
+void check_not_empty(const std::string& function, const PictureContent& content) {
   if (content.mesh.empty() && content.points.empty()) {
-    throw InvalidArgument("draw_picture: the content must not be empty");
+    throw InvalidArgument(function + ": the content must not be empty");
   }
+}
+
+/// Calls visit for each corner of a face and each point.
+template <class Visit>
+void visit_positions(const PictureContent& content, const Visit& visit) {
+  for (const Triangle& triangle : content.mesh.triangles) {
+    for (const std::uint32_t corner : triangle)
+      visit(content.mesh.positions[corner]);
+  }
+  for (const Vec3& point : content.points)
+    visit(point);
+}
+
+Box bounds_of(const PictureContent& content) {
+  Box bounds;
+  visit_positions(content, [&](const Vec3& position) { bounds.add(position); });
+  return bounds;
+}
+
+void check_options(const PictureOptions& options) {
   if (options.supersampling < 1 || options.supersampling > kMaxSupersampling) {
     throw InvalidArgument("draw_picture: supersampling must lie in [1, 4], got " +
                           std::to_string(options.supersampling));
@@ -96,36 +117,31 @@ Picture downsample(const LightImage& light, int factor) {
 
 }  // namespace
 
-Box bounds_of(const PictureContent& content) {
-  Box bounds;
-  for (const Triangle& triangle : content.mesh.triangles) {
-    for (const std::uint32_t corner : triangle)
-      bounds.add(content.mesh.positions[corner]);
-  }
-  for (const Vec3& point : content.points)
-    bounds.add(point);
-  return bounds;
-}
-
-Camera frame_picture(const Box& bounds, const Vec3& toward_viewer, Extent extent,
+Camera frame_picture(const PictureContent& content, const Vec3& toward_viewer, Extent extent,
                      const std::optional<Vec3>& up) {
+  check_not_empty("frame_picture", content);
   if (extent.width < 1 || extent.height < 1) {
     throw InvalidArgument("frame_picture: extent must be at least 1 x 1");
   }
-  constexpr double kMargin = 1.06;       // of the box's size in the window
-  constexpr double kProbePixels = 1000;  // across the box, to learn its shape in the window
-  const double probe = std::max(bounds.diagonal(), 1e-30) / kProbePixels;
-  FramedCamera framed = frame_box(bounds, toward_viewer, probe, 0, up);
-  const double pixel_size = probe * kMargin *
-                            std::max(static_cast<double>(framed.extent.width) / extent.width,
-                                     static_cast<double>(framed.extent.height) / extent.height);
-  framed.camera.lens = Orthographic{.height = pixel_size * extent.height};
-  return framed.camera;
+  constexpr double kMargin = 1.06;  // of what is shown
+  const Box bounds = bounds_of(content);
+  const double probe = std::max(bounds.diagonal(), std::numeric_limits<double>::min());
+  Camera camera = frame_box(bounds, toward_viewer, probe, 0, up).camera;
+  Box seen;  // in eye space
+  visit_positions(content,
+                  [&](const Vec3& p) { seen.add(Vec3(camera.eye_from_world * Vec4(p, 1.0))); });
+  camera.eye_from_world[3] -= Vec4(seen.center().x, seen.center().y, 0.0, 0.0);
+  const Vec3 size = seen.upper - seen.lower;
+  const double pixel_size =
+      std::max({size.x / extent.width, size.y / extent.height, std::numeric_limits<double>::min()});
+  camera.lens = Orthographic{.height = kMargin * pixel_size * extent.height};
+  return camera;
 }
 
 Picture draw_picture(Rasterizer& rasterizer, const PictureContent& content, const Camera& camera,
                      const PictureOptions& options) {
-  check_options(content, options);
+  check_not_empty("draw_picture", content);
+  check_options(options);
   const int factor = options.supersampling;
   const Extent fine{options.extent.width * factor, options.extent.height * factor};
   const View view(fit_depth_planes(camera, bounds_of(content)), fine);

@@ -30,14 +30,11 @@ struct PictureOptions {
   int point_size = 2;     ///< pixels
 };
 
-/// Box around all that the content shows: faces, and points.
-[[nodiscard]] Box bounds_of(const PictureContent& content);
-
-/// The parallel camera from `toward_viewer` that shows all of `bounds` in the extent with a small
-/// margin, depth planes fitted. `up` defaults as in frame_box().
-/// @throws InvalidArgument as frame_box(), or if the extent is empty.
-[[nodiscard]] Camera frame_picture(const Box& bounds, const Vec3& toward_viewer, Extent extent,
-                                   const std::optional<Vec3>& up = std::nullopt);
+/// The parallel camera from `toward_viewer` that shows all of the content in the middle of the
+/// extent, as large as it can be with a small margin. `up` defaults as in frame_box().
+/// @throws InvalidArgument if the content or the extent is empty, and as frame_box().
+[[nodiscard]] Camera frame_picture(const PictureContent& content, const Vec3& toward_viewer,
+                                   Extent extent, const std::optional<Vec3>& up = std::nullopt);
 
 /// Draws the content with the given rasterizer and shades it: lights beside the viewer, hollows
 /// darker, faces seen from behind in another hue, so that inverted ones show; points darker where
