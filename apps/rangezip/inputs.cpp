@@ -27,7 +27,7 @@ SessionInput with_hash(const fs::path& path) {
 }  // namespace
 
 SceneInput read_inputs(const std::vector<fs::path>& paths, Console& console) {
-  const Progress progress = console.start_task("reading", total_bytes(paths), "B");
+  const Progress progress = console.start_task("reading", total_bytes(paths), "bytes");
   SceneInput input = read_scene(paths, progress);
   console.end_task();
   return input;
