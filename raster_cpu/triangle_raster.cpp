@@ -85,7 +85,7 @@ void draw_small(const TriangleSetup& t, PrimitiveId id, const DrawTarget& target
     const std::size_t row = target.extent.index({0, y});
     for (int x = t.columns.first; x <= t.columns.last; ++x) {
       if ((m0 | m1 | m2) >= 0) {
-        // area < 2^27 and numerator < 2^53: the rounded quotient cannot reach the next integer.
+        // area <= 2^26 and numerator <= 2^52: the rounded quotient cannot reach the next integer.
         const auto quotient = static_cast<std::int64_t>(static_cast<double>(numerator) / area);
         const std::int64_t depth = t.z_min + quotient;
         const std::size_t pixel = row + static_cast<std::size_t>(x);

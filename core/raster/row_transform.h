@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -46,8 +45,9 @@ inline constexpr std::int32_t kGuardXY = 1 << 22;
 inline constexpr std::int32_t kGuardZ = 1 << 25;
 
 /// What takes the place of a position that has none. Its x is farther left than any point
-/// reaches, so that drawing code may treat it as a point off screen.
-inline constexpr SnappedPosition kRejected{std::numeric_limits<std::int32_t>::min(), 0, 0};
+/// reaches, so that drawing code may treat it as a point off screen, and far enough from the least
+/// integer to be moved by a point's size.
+inline constexpr SnappedPosition kRejected{-(1 << 30), 0, 0};
 [[nodiscard]] constexpr bool is_rejected(const SnappedPosition& p) noexcept {
   return p.x == kRejected.x;
 }

@@ -11,6 +11,9 @@ namespace {
 
 using shapes::Random;
 
+// Random numbers are drawn in braces or in statements of their own: compilers evaluate the
+// arguments of a call in different orders.
+
 int whole(Random& random, int lower, int upper) {
   const auto span = static_cast<std::uint64_t>(upper - lower + 1);
   return lower + static_cast<int>(random.bits() % span);
@@ -42,8 +45,8 @@ float anywhere(Random& random, int size, int margin) {
 
 /// On a pixel's centre or border, or one unit beside it.
 float on_lattice(Random& random, int size) {
-  return static_cast<float>(128 * whole(random, -2, 2 * size + 2) +
-                            (whole(random, 0, 2) == 0 ? whole(random, -1, 1) : 0));
+  const int lattice = 128 * whole(random, -2, 2 * size + 2);
+  return static_cast<float>(whole(random, 0, 2) == 0 ? lattice + whole(random, -1, 1) : lattice);
 }
 
 float not_finite(Random& random) {
@@ -109,9 +112,9 @@ Facing random_facing(Random& random) {
 }
 
 View central_view(Random& random, Extent extent) {
-  Camera camera =
-      look_at({random.between(-1, 1), random.between(-1, 1), random.between(2, 4)}, {0.0, 0.0, 0.0},
-              {0.0, 1.0, 0.0}, Perspective{.fov_y = random.between(0.3, 1.4)});
+  const Vec3 eye{random.between(-1, 1), random.between(-1, 1), random.between(2, 4)};
+  const double fov_y = random.between(0.3, 1.4);
+  Camera camera = look_at(eye, {0, 0, 0}, {0, 1, 0}, Perspective{.fov_y = fov_y});
   camera.near_depth = random.between(0.5, 1.5);
   camera.far_depth = camera.near_depth + random.between(1.0, 5.0);
   return View(camera, extent);
@@ -120,8 +123,8 @@ View central_view(Random& random, Extent extent) {
 std::vector<Vec3f> random_positions(Random& random, int count, double radius) {
   std::vector<Vec3f> positions;
   for (int i = 0; i < count; ++i) {
-    positions.emplace_back(random.between(-radius, radius), random.between(-radius, radius),
-                           random.between(-radius, radius));
+    positions.push_back(Vec3f{random.between(-radius, radius), random.between(-radius, radius),
+                              random.between(-radius, radius)});
   }
   return positions;
 }
@@ -139,8 +142,8 @@ RasterScene lattice_points(Random& random) {
   for (int item = 0; item < 2; ++item) {
     std::vector<Vec3f> positions;
     for (int i = 0; i < 120; ++i) {
-      positions.emplace_back(on_lattice(random, extent.width), on_lattice(random, extent.height),
-                             random_depth(random));
+      positions.push_back(Vec3f{on_lattice(random, extent.width), on_lattice(random, extent.height),
+                                random_depth(random)});
     }
     builder.add_points(std::move(positions), whole(random, 1, 8));
   }
@@ -154,8 +157,8 @@ RasterScene scattered_points(Random& random) {
     std::vector<Vec3f> positions;
     for (int i = 0; i < 100; ++i) {
       // Halves of the grid's unit: rounding to even decides.
-      positions.emplace_back(anywhere(random, extent.width, 20) * 0.5F,
-                             anywhere(random, extent.height, 20) * 0.5F, random_depth(random));
+      positions.push_back(Vec3f{anywhere(random, extent.width, 20) * 0.5F,
+                                anywhere(random, extent.height, 20) * 0.5F, random_depth(random)});
       if (whole(random, 0, 30) == 0) {
         positions.back()[whole(random, 0, 2)] =
             whole(random, 0, 1) == 0 ? not_finite(random) : 1e7F;
@@ -184,8 +187,8 @@ RasterScene lattice_triangles(Random& random) {
   SceneBuilder builder = lattice_builder(extent);
   std::vector<Vec3f> positions;
   for (int i = 0; i < 3 * 60; ++i) {
-    positions.emplace_back(on_lattice(random, extent.width), on_lattice(random, extent.height),
-                           random_depth(random));
+    positions.push_back(Vec3f{on_lattice(random, extent.width), on_lattice(random, extent.height),
+                              random_depth(random)});
   }
   builder.add_soup(std::move(positions), random_facing(random));
   return builder.take();
@@ -199,9 +202,9 @@ RasterScene tiny_triangles(Random& random) {
     const float x = anywhere(random, extent.width, 1);
     const float y = anywhere(random, extent.height, 1);
     for (int corner = 0; corner < 3; ++corner) {
-      positions.emplace_back(x + static_cast<float>(whole(random, -200, 200)),
-                             y + static_cast<float>(whole(random, -200, 200)),
-                             random_depth(random));
+      positions.push_back(Vec3f{x + static_cast<float>(whole(random, -200, 200)),
+                                y + static_cast<float>(whole(random, -200, 200)),
+                                random_depth(random)});
     }
   }
   builder.add_soup(std::move(positions), random_facing(random));
@@ -231,10 +234,10 @@ RasterScene wide_triangles(Random& random) {
   for (int i = 0; i < 3 * 40; ++i) {
     // The last is the whole guard range: areas up to 2^46, the longest numerators of R7.
     const int reach = std::array{50, 700, 7000, 16384}[static_cast<std::size_t>(i / 3 % 4)] * 256;
-    positions.emplace_back(whole(random, -reach, reach), whole(random, -reach, reach),
-                           whole(random, 0, 1) == 0
-                               ? random_depth(random)
-                               : static_cast<float>(whole(random, -(1 << 25), 1 << 25)));
+    positions.push_back(Vec3f{whole(random, -reach, reach), whole(random, -reach, reach),
+                              whole(random, 0, 1) == 0
+                                  ? random_depth(random)
+                                  : static_cast<float>(whole(random, -(1 << 25), 1 << 25))});
   }
   builder.add_soup(std::move(positions), random_facing(random));
   return builder.take();
@@ -245,8 +248,8 @@ RasterScene plane_crossing(Random& random) {
   SceneBuilder builder = lattice_builder(extent);
   std::vector<Vec3f> positions;
   for (int i = 0; i < 3 * 40; ++i) {
-    positions.emplace_back(anywhere(random, extent.width, 5), anywhere(random, extent.height, 5),
-                           whole(random, -(1 << 24), 1 << 25));
+    positions.push_back(Vec3f{anywhere(random, extent.width, 5), anywhere(random, extent.height, 5),
+                              whole(random, -(1 << 24), 1 << 25)});
     if (whole(random, 0, 60) == 0) positions.back()[whole(random, 0, 2)] = not_finite(random);
     // Far outside of the guard range: cut before it is drawn.
     if (whole(random, 0, 20) == 0) positions.back()[whole(random, 0, 2)] *= 1e5F;
@@ -261,8 +264,8 @@ RasterScene duplicates(Random& random) {
   std::vector<Vec3f> positions;
   std::vector<Triangle> corners;
   for (std::uint32_t i = 0; i < 3 * 20; ++i) {
-    positions.emplace_back(anywhere(random, extent.width, 3), anywhere(random, extent.height, 3),
-                           random_depth(random));
+    positions.push_back(Vec3f{anywhere(random, extent.width, 3), anywhere(random, extent.height, 3),
+                              random_depth(random)});
   }
   for (int i = 0; i < 100; ++i) {
     const auto first = static_cast<std::uint32_t>(3 * whole(random, 0, 19));
@@ -285,8 +288,8 @@ RasterScene shared_edges(Random& random) {
   const int jitter = whole(random, 0, 1) == 0 ? 0 : pitch / 3;
   for (int y = 0; y < static_cast<int>(kSide); ++y) {
     for (int x = 0; x < static_cast<int>(kSide); ++x) {
-      positions.emplace_back(x * pitch + whole(random, -jitter, jitter),
-                             y * pitch + whole(random, -jitter, jitter), random_depth(random));
+      positions.push_back(Vec3f{x * pitch + whole(random, -jitter, jitter),
+                                y * pitch + whole(random, -jitter, jitter), random_depth(random)});
     }
   }
   for (std::uint32_t y = 0; y + 1 < kSide; ++y) {
@@ -304,7 +307,8 @@ RasterScene central_triangles(Random& random) {
   const Extent extent = random_extent(random);
   SceneBuilder builder(central_view(random, extent), Mat4{1.0});
   // The larger ones reach behind the eye.
-  builder.add_soup(random_positions(random, 3 * 30, 1.5), random_facing(random));
+  const Facing facing = random_facing(random);
+  builder.add_soup(random_positions(random, 3 * 30, 1.5), facing);
   builder.add_soup(random_positions(random, 3 * 30, 6.0));
   return builder.take();
 }
@@ -317,9 +321,11 @@ RasterScene mixed_and_clipped(Random& random) {
     camera.clip_planes.push_back({random.direction(), random.between(-0.2, 0.8)});
   }
   SceneBuilder builder(View(camera, extent), Mat4{1.0});
-  builder.add_points(random_positions(random, 100, 2.0), whole(random, 1, 4));
-  builder.add_soup(random_positions(random, 3 * 30, 2.0), random_facing(random));
-  builder.add_points(random_positions(random, 100, 2.0), whole(random, 1, 4));
+  const int size = whole(random, 1, 4);
+  const Facing facing = random_facing(random);
+  builder.add_points(random_positions(random, 100, 2.0), size);
+  builder.add_soup(random_positions(random, 3 * 30, 2.0), facing);
+  builder.add_points(random_positions(random, 100, 2.0), size);
   return builder.take();
 }
 

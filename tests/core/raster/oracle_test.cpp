@@ -9,7 +9,7 @@
 namespace rangezip {
 namespace {
 
-constexpr std::uint64_t kSeeds = 25;
+constexpr std::uint64_t kSeeds = 40;
 
 /// Calls body(scene) for kSeeds scenes of every family.
 void for_each_scene(const std::function<void(const RasterScene&)>& body) {
@@ -36,7 +36,7 @@ TEST_CASE("render gives the bits of the oracle") {
         drawn += id != kNoPrimitive ? 1 : 0;
     });
   }
-  // The scenes show something: about half of all pixels.
+  // The comparison is not one of empty images.
   CHECK(drawn > 40'000);
 }
 
