@@ -61,58 +61,54 @@ bool is_rim(const LoopGeometry& loop) {
   return glm::dot(loop.across, loop.beside) < kLeadsInto * area;
 }
 
-double area_of(const std::vector<Vec3>& positions, const HoleFill& fill) {
-  const auto at = [&](std::uint32_t v) -> const Vec3& {
-    return v < positions.size() ? positions[v] : fill.new_positions[v - positions.size()];
-  };
-  double area = 0.0;
-  for (const Triangle& t : fill.triangles) {
-    area += 0.5 * glm::length(area_vector(at(t[0]), at(t[1]), at(t[2])));
-  }
-  return area;
-}
+/// What the new points of a fill tell about a hole.
+struct Inside {
+  double width = 0.0;       ///< of the widest place, model units
+  bool has_points = false;  ///< of the cloud
+};
 
-double squared_distance_to(const std::vector<Vec3>& points, const Vec3& p) {
+double distance_to(const std::vector<Vec3>& points, const Vec3& p) {
   double least = std::numeric_limits<double>::infinity();
   for (const Vec3& q : points)
     least = std::min(least, glm::dot(q - p, q - p));
-  return least;
+  return std::sqrt(least);
 }
 
-/// Whether the cloud has points where a fill has its own.
-bool has_points_inside(const LoopGeometry& loop, const HoleFill& fill, const PointGrid& cloud,
-                       double pixel_size) {
-  if (cloud.empty()) return false;
-  const double margin = kInsideMargin * pixel_size;
+Inside look_inside(const LoopGeometry& loop, const HoleFill& fill, const PointGrid& cloud,
+                   double pixel_size) {
   const double radius = kEvidenceRadius * pixel_size;
+  Inside inside;
   int samples = 0;
   int supported = 0;
   for (const Vec3& p : fill.new_positions) {
-    if (squared_distance_to(loop.points, p) < margin * margin) continue;
+    const double distance = distance_to(loop.points, p);
+    inside.width = std::max(inside.width, 2.0 * distance);
+    if (distance < kInsideMargin * pixel_size) continue;
     ++samples;
     bool found = false;
     cloud.for_each_near(p, radius,
                         [&](const Vec3& d) { found = found || glm::dot(d, d) < radius * radius; });
     supported += found ? 1 : 0;
   }
-  return samples >= kMinEvidenceSamples && supported > kEvidenceShare * samples;
+  inside.has_points = samples >= kMinEvidenceSamples && supported > kEvidenceShare * samples;
+  return inside;
 }
 
 }  // namespace
 
 std::optional<FillShape> choose_fill(const std::vector<Vec3>& positions, const CornerTable& table,
-                                     const BoundaryLoop& loop, const PointGrid& cloud,
-                                     const HoleChoiceOptions& options) {
+                                     const BoundaryLoop& loop, bool is_zipped,
+                                     const PointGrid& cloud, const HoleChoiceOptions& options) {
   const double h = options.pixel_size;
   if (loop.corners.size() > kMaxEdges) return std::nullopt;
   const LoopGeometry geometry = geometry_of(positions, table, loop);
   if (geometry.perimeter <= kSmallPerimeter * h) return FillShape::smooth;
   const HoleFill fill = fill_loop(positions, table, loop, FillShape::smooth, h);
-  const double width = 2.0 * area_of(positions, fill) / geometry.perimeter;  // of a long strip
-  const bool is_large = geometry.perimeter > options.max_hole_perimeter * h;
-  if (is_large && width < options.narrow_width * h) return FillShape::flat;
-  if (has_points_inside(geometry, fill, cloud, h)) return FillShape::smooth;
-  if (is_large || is_rim(geometry)) return std::nullopt;
+  const Inside inside = look_inside(geometry, fill, cloud, h);
+  if (inside.width < options.narrow_width * h) return FillShape::flat;
+  if (inside.has_points) return FillShape::smooth;
+  if (!is_zipped) return FillShape::zipped;
+  if (geometry.perimeter > options.max_hole_perimeter * h || is_rim(geometry)) return std::nullopt;
   return geometry.perimeter <= kSmoothPerimeter * h ? FillShape::smooth : FillShape::flat;
 }
 

@@ -16,36 +16,6 @@ namespace {
 /// Holes of fewer edges need no new points.
 constexpr std::size_t kMinEdgesToRefine = 11;
 
-Vec3 normal_of_face(const std::vector<Vec3>& positions, const Triangle& t) {
-  const Vec3 area = area_vector(positions[t[0]], positions[t[1]], positions[t[2]]);
-  const double length = glm::length(area);
-  return length > 0.0 ? area / length : Vec3{0.0};
-}
-
-/// The loop's vertices and which of them the mesh already joins.
-class LoopEdges {
- public:
-  LoopEdges(const CornerTable& table, const std::vector<std::uint32_t>& vertices) {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> place_of;  // vertex, place in the loop
-    for (std::uint32_t i = 0; i < vertices.size(); ++i)
-      place_of.emplace_back(vertices[i], i);
-    std::sort(place_of.begin(), place_of.end());
-    for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-      table.for_each_neighbor(vertices[i], [&](std::uint32_t w) {
-        const auto at = std::lower_bound(place_of.begin(), place_of.end(), std::pair{w, 0U});
-        if (at != place_of.end() && at->first == w) joined_.emplace_back(i, at->second);
-      });
-    }
-    std::sort(joined_.begin(), joined_.end());
-  }
-  [[nodiscard]] bool are_joined(std::uint32_t i, std::uint32_t k) const {
-    return std::binary_search(joined_.begin(), joined_.end(), std::pair{i, k});
-  }
-
- private:
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> joined_;
-};
-
 /// Per point of the loop the mean of its two edges, but not less than the length asked for.
 std::vector<double> scales_of(const std::vector<Vec3>& loop, double edge_length) {
   const std::size_t n = loop.size();
@@ -79,14 +49,7 @@ LoopSurroundings surroundings_of(const std::vector<Vec3>& positions, const Corne
 HoleFill fill_loop(const std::vector<Vec3>& positions, const CornerTable& table,
                    const BoundaryLoop& loop, FillShape shape, double edge_length) {
   const std::vector<std::uint32_t> vertices = vertices_of(loop, table);
-  const LoopEdges edges(table, vertices);
-  LoopShape polygon;
-  for (const std::uint32_t v : vertices)
-    polygon.points.push_back(positions[v]);
-  for (const std::uint32_t c : loop.corners) {
-    polygon.edge_normals.push_back(normal_of_face(positions, table.triangle(c / 3)));
-  }
-  polygon.is_forbidden = [&](std::uint32_t i, std::uint32_t k) { return edges.are_joined(i, k); };
+  const LoopShape polygon = shape_of(loop, table, positions);
   FillPatch patch{polygon.points, triangulate_loop(polygon), vertices.size()};
   if (shape != FillShape::coarse && vertices.size() >= kMinEdgesToRefine &&
       !patch.triangles.empty()) {
@@ -134,7 +97,7 @@ FilledMesh fill_mesh_holes(TriangleMesh mesh, double edge_length, double max_per
     if (perimeter_of(loop, table, mesh.positions) > max_perimeter) continue;
     requests.push_back({std::move(loop), FillShape::smooth});
   }
-  const VerifiedFills fills = fill_verified(mesh, table, requests, edge_length);
+  const VerifiedFills fills = fill_verified(mesh, table, requests, {edge_length, 0.0});
   FilledMesh result;
   result.filled_holes = fills.filled_holes;
   result.filled_faces = fills.filled_faces;

@@ -14,6 +14,7 @@ enum class FillShape {
   coarse,  ///< no new points: small holes and cracks
   flat,    ///< points as dense as around the hole, as a soap film
   smooth,  ///< the same, continuing the surface around
+  zipped,  ///< only where the sides are close together (zip_loop)
 };
 
 /// Faces that fill a hole. Corners are vertices of the mesh or, from the count of positions on, new
@@ -28,8 +29,18 @@ struct HoleFill {
 /// if there is no such triangulation.
 /// @param edge_length new edges are about as long as those around the hole, or this if it is longer
 /// @param positions of the table's vertices; more may follow
+/// @pre shape is not FillShape::zipped
 [[nodiscard]] HoleFill fill_loop(const std::vector<Vec3>& positions, const CornerTable& table,
                                  const BoundaryLoop& loop, FillShape shape, double edge_length);
+
+/// Closes a loop only where its sides are close together: of the least sharp triangulation it takes
+/// the triangles with all sides up to max_edge that continue the surface beside them, in pieces
+/// that hang together. Together with the mesh they are manifold, and so is it with any of the
+/// pieces.
+/// @param max_edge model units
+[[nodiscard]] std::vector<HoleFill> zip_loop(const std::vector<Vec3>& positions,
+                                             const CornerTable& table, const BoundaryLoop& loop,
+                                             double max_edge);
 
 /// Appends a fill to a mesh; new vertices have no source.
 /// @param base count of positions when the fill was made; the mesh may have grown since

@@ -3,9 +3,40 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace rangezip {
 namespace {
+
+Vec3 normal_of_face(const std::vector<Vec3>& positions, const Triangle& t) {
+  const Vec3 area = area_vector(positions[t[0]], positions[t[1]], positions[t[2]]);
+  const double length = glm::length(area);
+  return length > 0.0 ? area / length : Vec3{0.0};
+}
+
+/// The loop's vertices and which of them the mesh already joins.
+class LoopEdges {
+ public:
+  LoopEdges(const CornerTable& table, const std::vector<std::uint32_t>& vertices) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> place_of;  // vertex, place in the loop
+    for (std::uint32_t i = 0; i < vertices.size(); ++i)
+      place_of.emplace_back(vertices[i], i);
+    std::sort(place_of.begin(), place_of.end());
+    for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+      table.for_each_neighbor(vertices[i], [&](std::uint32_t w) {
+        const auto at = std::lower_bound(place_of.begin(), place_of.end(), std::pair{w, 0U});
+        if (at != place_of.end() && at->first == w) joined_.emplace_back(i, at->second);
+      });
+    }
+    std::sort(joined_.begin(), joined_.end());
+  }
+  [[nodiscard]] bool are_joined(std::uint32_t i, std::uint32_t k) const {
+    return std::binary_search(joined_.begin(), joined_.end(), std::pair{i, k});
+  }
+
+ private:
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> joined_;
+};
 
 /// Longer loops are divided: beyond this the cubic cost shows.
 constexpr std::size_t kMaxDirectEdges = 100;
@@ -157,6 +188,21 @@ Piece part_of(const Piece& piece, std::size_t from, std::size_t to) {
 }
 
 }  // namespace
+
+LoopShape shape_of(const BoundaryLoop& loop, const CornerTable& table,
+                   const std::vector<Vec3>& positions) {
+  const std::vector<std::uint32_t> vertices = vertices_of(loop, table);
+  LoopShape shape;
+  for (const std::uint32_t v : vertices)
+    shape.points.push_back(positions[v]);
+  for (const std::uint32_t c : loop.corners) {
+    shape.edge_normals.push_back(normal_of_face(positions, table.triangle(c / 3)));
+  }
+  shape.is_forbidden = [edges = LoopEdges(table, vertices)](std::uint32_t i, std::uint32_t k) {
+    return edges.are_joined(i, k);
+  };
+  return shape;
+}
 
 std::vector<Triangle> triangulate_loop(const LoopShape& shape) {
   std::vector<Triangle> triangles;

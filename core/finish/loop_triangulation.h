@@ -2,11 +2,11 @@
 
 #include <cstdint>
 #include <functional>
-#include <span>
 #include <vector>
 
 #include "core/base/geometry.h"
-#include "core/raster/draw_item.h"
+#include "core/finish/boundary_loops.h"
+#include "core/finish/corner_table.h"
 
 namespace rangezip {
 
@@ -17,6 +17,11 @@ struct LoopShape {
   /// Whether an edge between points i and k is not to be made (there is one already).
   std::function<bool(std::uint32_t i, std::uint32_t k)> is_forbidden;
 };
+
+/// The shape of a mesh's boundary loop: point i is vertices_of(loop, table)[i], and no edge that
+/// the mesh has may be made again.
+[[nodiscard]] LoopShape shape_of(const BoundaryLoop& loop, const CornerTable& table,
+                                 const std::vector<Vec3>& positions);
 
 /// Triangulates a loop without new points so that the largest angle between neighbouring faces,
 /// those across the loop included, is least, and among equals the area [Barequet, Sharir 1995;

@@ -19,6 +19,9 @@
 namespace rangezip {
 namespace {
 
+/// In h: sides of a loop that are this close get joined before the loop is judged.
+constexpr double kZipWidth = 3.0;
+
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 void drop_marked(TriangleMesh& mesh, const std::vector<std::uint8_t>& marked) {
@@ -63,9 +66,13 @@ void bridge(TriangleMesh& mesh, const FinishOptions& options, FinishReport& repo
   report.bridged_loops += bridges;
 }
 
-/// Marks the vertices of loops that could not be filled.
-std::vector<std::uint8_t> fill(TriangleMesh& mesh, const PointGrid& cloud,
-                               const FinishOptions& options, FinishReport& report) {
+struct FillOutcome {
+  bool is_done = true;                 ///< nothing to do in another round
+  std::vector<std::uint8_t> unfilled;  ///< flags of vertices of loops that could not be filled
+};
+
+FillOutcome fill(TriangleMesh& mesh, bool is_zipped, const PointGrid& cloud,
+                 const FinishOptions& options, FinishReport& report) {
   const CornerTable table(mesh.triangles, mesh.positions.size());
   std::vector<BoundaryLoop> loops = boundary_loops(table);
   const HoleChoiceOptions choice{options.pixel_size, options.max_hole_perimeter,
@@ -73,24 +80,28 @@ std::vector<std::uint8_t> fill(TriangleMesh& mesh, const PointGrid& cloud,
   std::vector<std::optional<FillShape>> shapes(loops.size());
   parallel_for(loops.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      shapes[i] = choose_fill(mesh.positions, table, loops[i], cloud, choice);
+      shapes[i] = choose_fill(mesh.positions, table, loops[i], is_zipped, cloud, choice);
     }
   });
   std::vector<FillRequest> requests;
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (shapes[i]) requests.push_back({std::move(loops[i]), *shapes[i]});
   }
-  const VerifiedFills fills = fill_verified(mesh, table, requests, options.pixel_size);
+  const VerifiedFills fills =
+      fill_verified(mesh, table, requests, {options.pixel_size, kZipWidth * options.pixel_size});
   report.filled_holes += fills.filled_holes;
   report.filled_faces += fills.filled_faces;
-  std::vector<std::uint8_t> unfilled;
-  if (fills.rejected.empty()) return unfilled;
-  unfilled.assign(mesh.positions.size(), 0);
+  FillOutcome outcome;
+  outcome.unfilled.assign(mesh.positions.size(), 0);
   for (const std::size_t i : fills.rejected) {
     for (const std::uint32_t v : vertices_of(requests[i].loop, table))
-      unfilled[v] = 1;
+      outcome.unfilled[v] = 1;
   }
-  return unfilled;
+  const bool any_zipped = std::any_of(requests.begin(), requests.end(), [](const FillRequest& r) {
+    return r.shape == FillShape::zipped;
+  });
+  outcome.is_done = fills.rejected.empty() && !any_zipped;
+  return outcome;
 }
 
 /// Drops the faces around marked vertices.
@@ -111,9 +122,10 @@ void repair(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& opt
     progress.check_stop();
     clean(mesh, options, report);
     bridge(mesh, options, report);
-    const std::vector<std::uint8_t> unfilled = fill(mesh, cloud, options, report);
-    if (unfilled.empty() || round + 1 == options.rounds) break;
-    widen(mesh, unfilled);
+    const bool is_zipped = round > 0;
+    const FillOutcome outcome = fill(mesh, is_zipped, cloud, options, report);
+    if (outcome.is_done || round + 1 == options.rounds) break;
+    widen(mesh, outcome.unfilled);
   }
   remove_unused_vertices(mesh);
 }

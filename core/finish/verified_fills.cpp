@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
-#include <span>
+#include <utility>
 
 #include "core/base/parallel.h"
 #include "core/finish/self_intersection.h"
@@ -47,48 +47,79 @@ std::vector<std::uint8_t> failing_fills(const TriangleMesh& mesh,
   return fails;
 }
 
-/// Fills the requests with the given numbers, appends what passes, and returns the others.
-std::vector<std::size_t> fill_once(TriangleMesh& mesh, const CornerTable& table,
-                                   const std::vector<FillRequest>& requests,
-                                   std::span<const std::size_t> chosen, bool coarse,
-                                   double edge_length, VerifiedFills& result) {
-  std::vector<HoleFill> fills(chosen.size());
-  parallel_for(chosen.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const FillRequest& request = requests[chosen[k]];
-      fills[k] = fill_loop(mesh.positions, table, request.loop,
-                           coarse ? FillShape::coarse : request.shape, edge_length);
-    }
-  });
-  const std::vector<std::uint8_t> fails = failing_fills(mesh, fills);
-  std::vector<std::size_t> rejected;
-  const std::size_t base = mesh.positions.size();
-  for (std::size_t k = 0; k < fills.size(); ++k) {
-    if (fails[k] != 0 || fills[k].triangles.empty()) {
-      rejected.push_back(chosen[k]);
-      continue;
-    }
-    append_fill(mesh, fills[k], base);
-    ++result.filled_holes;
-    result.filled_faces += fills[k].triangles.size();
+/// Fills made for a request: one, or the pieces of a zipped loop.
+std::vector<HoleFill> fills_for(const TriangleMesh& mesh, const CornerTable& table,
+                                const FillRequest& request, FillShape shape,
+                                const VerifiedFillOptions& options) {
+  if (shape == FillShape::zipped) {
+    return zip_loop(mesh.positions, table, request.loop, options.zip_width);
   }
-  return rejected;
+  return {fill_loop(mesh.positions, table, request.loop, shape, options.edge_length)};
 }
+
+class Filler {
+ public:
+  Filler(TriangleMesh& mesh, const CornerTable& table, const std::vector<FillRequest>& requests,
+         const VerifiedFillOptions& options)
+      : mesh_(mesh), table_(table), requests_(requests), options_(options) {}
+
+  VerifiedFills run() {
+    std::vector<std::size_t> all(requests_.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    fill(all, false);
+    const std::vector<std::size_t> again = std::move(result_.rejected);
+    result_.rejected.clear();
+    if (!again.empty()) fill(again, true);
+    return std::move(result_);
+  }
+
+ private:
+  /// Fills the chosen requests, appends what passes, and notes the others.
+  void fill(const std::vector<std::size_t>& chosen, bool coarse) {
+    std::vector<std::vector<HoleFill>> made(chosen.size());
+    parallel_for(chosen.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const FillRequest& request = requests_[chosen[k]];
+        made[k] =
+            fills_for(mesh_, table_, request, coarse ? FillShape::coarse : request.shape, options_);
+      }
+    });
+    std::vector<HoleFill> fills;
+    std::vector<std::size_t> request_of;
+    for (std::size_t k = 0; k < made.size(); ++k) {
+      for (HoleFill& fill : made[k])
+        fills.push_back(std::move(fill));
+      request_of.resize(fills.size(), chosen[k]);
+    }
+    const std::vector<std::uint8_t> fails = failing_fills(mesh_, fills);
+    const std::size_t base = mesh_.positions.size();
+    for (std::size_t i = 0; i < fills.size(); ++i) {
+      const bool is_good = fails[i] == 0 && !fills[i].triangles.empty();
+      const bool is_zipped = requests_[request_of[i]].shape == FillShape::zipped;
+      if (is_good) {
+        append_fill(mesh_, fills[i], base);
+        result_.filled_faces += fills[i].triangles.size();
+        ++(is_zipped ? result_.zipped_pieces : result_.filled_holes);
+      } else if (!is_zipped) {
+        result_.rejected.push_back(request_of[i]);
+      }
+    }
+  }
+
+  TriangleMesh& mesh_;
+  const CornerTable& table_;
+  const std::vector<FillRequest>& requests_;
+  const VerifiedFillOptions& options_;
+  VerifiedFills result_;
+};
 
 }  // namespace
 
 VerifiedFills fill_verified(TriangleMesh& mesh, const CornerTable& table,
-                            const std::vector<FillRequest>& requests, double edge_length) {
-  VerifiedFills result;
-  if (requests.empty()) return result;
-  std::vector<std::size_t> all(requests.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  result.rejected = fill_once(mesh, table, requests, all, false, edge_length, result);
-  if (!result.rejected.empty()) {
-    const std::vector<std::size_t> again = result.rejected;
-    result.rejected = fill_once(mesh, table, requests, again, true, edge_length, result);
-  }
-  return result;
+                            const std::vector<FillRequest>& requests,
+                            const VerifiedFillOptions& options) {
+  if (requests.empty()) return {};
+  return Filler(mesh, table, requests, options).run();
 }
 
 }  // namespace rangezip

@@ -13,10 +13,16 @@ struct FillRequest {
   FillShape shape = FillShape::smooth;
 };
 
+struct VerifiedFillOptions {
+  double edge_length = 0.0;  ///< of new edges, model units; see fill_loop
+  double zip_width = 0.0;    ///< sides this close get zipped, model units; see zip_loop
+};
+
 struct VerifiedFills {
   std::size_t filled_holes = 0;
   std::size_t filled_faces = 0;
-  std::vector<std::size_t> rejected;  ///< indices of requests that were not filled
+  std::size_t zipped_pieces = 0;
+  std::vector<std::size_t> rejected;  ///< indices of requests to fill that were not filled
 };
 
 /// Fills loops and keeps the fills whose faces neither cross the mesh, nor each other, nor have no
@@ -24,6 +30,7 @@ struct VerifiedFills {
 /// without. Of two fills that cross, the earlier one stays.
 /// @pre `table` is that of `mesh` (and no longer after).
 VerifiedFills fill_verified(TriangleMesh& mesh, const CornerTable& table,
-                            const std::vector<FillRequest>& requests, double edge_length);
+                            const std::vector<FillRequest>& requests,
+                            const VerifiedFillOptions& options);
 
 }  // namespace rangezip
