@@ -17,12 +17,11 @@ struct FinishOptions {
   FinishMethod method = FinishMethod::full;
   double pixel_size = 0.0;           ///< h, model units, of the scans; must be positive
   double max_hole_perimeter = 60.0;  ///< in h: larger loops are left open unless narrow
-  double narrow_width = 4.5;  ///< in h: loops whose sides face each other within this are cracks
-                              ///< and are closed whatever their length
-  int rounds = 5;             ///< of {cut self-intersections, bridge, fill}, at most
-  int relaxations = 5;        ///< of {collapse, flip, relax, project}
-  bool snap_features = true;  ///< sharp edges and corners
-  std::size_t min_component = 100;  ///< smaller pieces are dropped
+  double narrow_width = 3.0;         ///< in h: cracks up to this are closed whatever their length
+  int rounds = 5;                    ///< of {cut self-intersections, bridge, fill}, at most
+  int relaxations = 5;               ///< of {collapse, flip, relax, project}
+  bool snap_features = true;         ///< sharp edges and corners
+  std::size_t min_component = 100;   ///< smaller pieces are dropped
 };
 
 struct FinishReport {

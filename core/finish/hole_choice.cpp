@@ -8,7 +8,7 @@ namespace rangezip {
 namespace {
 
 /// In h: loops up to this are a few pixels across; no point can tell what they are.
-constexpr double kSmallPerimeter = 20.0;
+constexpr double kSmallPerimeter = 12.0;
 /// In h: wider holes without points inside are closed flat; a smooth fill of them would bulge.
 constexpr double kSmoothPerimeter = 30.0;
 /// The cost of judging a loop grows with the square of its edges.
@@ -105,10 +105,11 @@ std::optional<FillShape> choose_fill(const std::vector<Vec3>& positions, const C
   if (geometry.perimeter <= kSmallPerimeter * h) return FillShape::smooth;
   const HoleFill fill = fill_loop(positions, table, loop, FillShape::smooth, h);
   const Inside inside = look_inside(geometry, fill, cloud, h);
-  if (inside.width < options.narrow_width * h) return FillShape::flat;
   if (inside.has_points) return FillShape::smooth;
+  if (is_rim(geometry)) return std::nullopt;
+  if (inside.width < options.narrow_width * h) return FillShape::flat;
   if (!is_zipped) return FillShape::zipped;
-  if (geometry.perimeter > options.max_hole_perimeter * h || is_rim(geometry)) return std::nullopt;
+  if (geometry.perimeter > options.max_hole_perimeter * h) return std::nullopt;
   return geometry.perimeter <= kSmoothPerimeter * h ? FillShape::smooth : FillShape::flat;
 }
 

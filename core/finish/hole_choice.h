@@ -12,17 +12,18 @@ namespace rangezip {
 struct HoleChoiceOptions {
   double pixel_size = 0.0;           ///< h, model units
   double max_hole_perimeter = 60.0;  ///< in h
-  double narrow_width = 4.5;         ///< in h, of cracks
+  double narrow_width = 3.0;         ///< in h, of cracks
 };
 
 /// Whether a boundary loop is a gap in what was scanned, and then how to close it, or the border of
 /// an open surface, which stays (no value):
-/// - a small loop (up to 20 h) is closed;
-/// - a crack, nowhere wider than narrow_width, is closed whatever its length;
+/// - a small loop (up to 12 h) is closed;
 /// - a loop with points of the cloud inside is closed whatever its size;
-/// - others are first zipped where their sides are close: cracks often open into a border;
-/// - once zipped, those up to max_hole_perimeter are closed, but not a round rim where the surface
-///   ends without leading into the hole, as at the end of a tube.
+/// - a round rim where the surface ends without leading into the hole, as at the end of a tube,
+///   stays;
+/// - a crack, nowhere wider than narrow_width, is closed whatever its length;
+/// - others are first zipped where their sides are close, since cracks often open into a border;
+/// - once zipped, those up to max_hole_perimeter are closed.
 /// Loops of more than 6000 edges always stay.
 /// @param is_zipped whether loops have been zipped before
 /// @param cloud points of the cloud; may be empty: no evidence

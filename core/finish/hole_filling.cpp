@@ -13,19 +13,30 @@
 namespace rangezip {
 namespace {
 
-/// Holes of fewer edges need no new points.
-constexpr std::size_t kMinEdgesToRefine = 11;
+/// Holes around which fewer edges fit need no new points.
+constexpr double kMinEdgesToRefine = 10.5;
 
-/// Per point of the loop the mean of its two edges, but not less than the length asked for.
+/// Per point of the loop the length asked for, or the mean of its two edges.
 std::vector<double> scales_of(const std::vector<Vec3>& loop, double edge_length) {
   const std::size_t n = loop.size();
-  std::vector<double> scales(n);
-  for (std::size_t i = 0; i < n; ++i) {
+  std::vector<double> scales(n, edge_length);
+  for (std::size_t i = 0; i < n && edge_length == 0.0; ++i) {
     const double before = glm::length(loop[i] - loop[(i + n - 1) % n]);
     const double after = glm::length(loop[(i + 1) % n] - loop[i]);
-    scales[i] = std::max(0.5 * (before + after), edge_length);
+    scales[i] = 0.5 * (before + after);
   }
   return scales;
+}
+
+/// As many edges of the loop or of the length asked for that new points are worth it.
+bool is_worth_refining(const LoopShape& loop, double edge_length) {
+  const std::size_t n = loop.points.size();
+  if (static_cast<double>(n) > kMinEdgesToRefine) return true;
+  double perimeter = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    perimeter += glm::length(loop.points[(i + 1) % n] - loop.points[i]);
+  }
+  return edge_length > 0.0 && perimeter > kMinEdgesToRefine * edge_length;
 }
 
 LoopSurroundings surroundings_of(const std::vector<Vec3>& positions, const CornerTable& table,
@@ -51,8 +62,8 @@ HoleFill fill_loop(const std::vector<Vec3>& positions, const CornerTable& table,
   const std::vector<std::uint32_t> vertices = vertices_of(loop, table);
   const LoopShape polygon = shape_of(loop, table, positions);
   FillPatch patch{polygon.points, triangulate_loop(polygon), vertices.size()};
-  if (shape != FillShape::coarse && vertices.size() >= kMinEdgesToRefine &&
-      !patch.triangles.empty()) {
+  if (shape != FillShape::coarse && !patch.triangles.empty() &&
+      is_worth_refining(polygon, edge_length)) {
     refine_patch(patch, scales_of(polygon.points, edge_length), polygon.is_forbidden);
     flatten_patch(patch);
     if (shape == FillShape::smooth) fair_patch(patch, surroundings_of(positions, table, vertices));

@@ -25,9 +25,9 @@ struct HoleFill {
 };
 
 /// Fills one loop: least sharp triangulation (core/finish/loop_triangulation.h), then refined and
-/// shaped, unless it has ten edges or fewer. Never makes an edge that the mesh already has. Empty
-/// if there is no such triangulation.
-/// @param edge_length new edges are about as long as those around the hole, or this if it is longer
+/// shaped, unless ten edges go around it or fewer. Never makes an edge that the mesh already has.
+/// Empty if there is no such triangulation.
+/// @param edge_length of new edges, model units; 0: as long as those around the hole
 /// @param positions of the table's vertices; more may follow
 /// @pre shape is not FillShape::zipped
 [[nodiscard]] HoleFill fill_loop(const std::vector<Vec3>& positions, const CornerTable& table,

@@ -19,9 +19,6 @@
 namespace rangezip {
 namespace {
 
-/// In h: sides of a loop that are this close get joined before the loop is judged.
-constexpr double kZipWidth = 3.0;
-
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 void drop_marked(TriangleMesh& mesh, const std::vector<std::uint8_t>& marked) {
@@ -87,8 +84,8 @@ FillOutcome fill(TriangleMesh& mesh, bool is_zipped, const PointGrid& cloud,
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (shapes[i]) requests.push_back({std::move(loops[i]), *shapes[i]});
   }
-  const VerifiedFills fills =
-      fill_verified(mesh, table, requests, {options.pixel_size, kZipWidth * options.pixel_size});
+  const VerifiedFills fills = fill_verified(
+      mesh, table, requests, {options.pixel_size, options.narrow_width * options.pixel_size});
   report.filled_holes += fills.filled_holes;
   report.filled_faces += fills.filled_faces;
   FillOutcome outcome;
