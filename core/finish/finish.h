@@ -16,7 +16,7 @@ enum class FinishMethod {
 struct FinishOptions {
   FinishMethod method = FinishMethod::full;
   double pixel_size = 0.0;           ///< h, model units, of the scans; must be positive
-  double max_hole_perimeter = 60.0;  ///< in h: larger loops are left open unless narrow
+  double max_hole_perimeter = 60.0;  ///< in h: larger holes without points in them stay
   double narrow_width = 3.0;         ///< in h: cracks up to this are closed whatever their length
   int rounds = 5;                    ///< of {cut self-intersections, bridge, fill}, at most
   int relaxations = 5;               ///< of {collapse, flip, relax, project}

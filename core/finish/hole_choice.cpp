@@ -15,9 +15,16 @@ constexpr double kSmoothPerimeter = 30.0;
 constexpr std::size_t kMaxEdges = 6000;
 /// Mean cosine between the surface beside the loop and the plane across it: below, the surface ends
 /// there. 0 at the end of a tube, -1 at the outline of a terrain, 1 in a plane.
-constexpr double kLeadsInto = 0.35;
+constexpr double kLeadsInto = 0.25;
+/// Below this a fill would fold back over the surface; only asked of loops longer than in h the
+/// second figure: short ones are too ragged to tell.
+constexpr double kFoldsBack = -0.3;
+constexpr double kMinOutline = 30.0;
+/// A long hole counts as large if it is also wider than this share of the largest perimeter; a
+/// round one is wider than 0.3 of its perimeter.
+constexpr double kLargeWidth = 0.25;
 /// Area over squared perimeter, 1 for a circle: below, the plane across a loop means little.
-constexpr double kRound = 0.5;
+constexpr double kRound = 0.6;
 /// In h: inside of a fill is what lies farther from the loop than this, the reach of what was
 /// scanned beside it; evidence is a point nearer to it than kEvidenceRadius.
 constexpr double kInsideMargin = 1.5;
@@ -53,12 +60,15 @@ LoopGeometry geometry_of(const std::vector<Vec3>& positions, const CornerTable& 
   return geometry;
 }
 
-/// A round loop at which the surface ends.
-bool is_rim(const LoopGeometry& loop) {
+/// A round loop at which the surface ends, or the outline of a sheet, over which a fill would fold
+/// back.
+bool is_rim(const LoopGeometry& loop, double pixel_size) {
   constexpr double kFourPi = 12.566370614359172954;
   const double area = glm::length(loop.across);
+  const double leads_into = glm::dot(loop.across, loop.beside);
+  if (loop.perimeter > kMinOutline * pixel_size && leads_into < kFoldsBack * area) return true;
   if (area * kFourPi < kRound * loop.perimeter * loop.perimeter) return false;
-  return glm::dot(loop.across, loop.beside) < kLeadsInto * area;
+  return leads_into < kLeadsInto * area;
 }
 
 /// What the new points of a fill tell about a hole.
@@ -106,10 +116,11 @@ std::optional<FillShape> choose_fill(const std::vector<Vec3>& positions, const C
   const HoleFill fill = fill_loop(positions, table, loop, FillShape::smooth, h);
   const Inside inside = look_inside(geometry, fill, cloud, h);
   if (inside.has_points) return FillShape::smooth;
-  if (is_rim(geometry)) return std::nullopt;
+  if (is_rim(geometry, h)) return std::nullopt;
   if (inside.width < options.narrow_width * h) return FillShape::flat;
   if (!is_zipped) return FillShape::zipped;
-  if (geometry.perimeter > options.max_hole_perimeter * h) return std::nullopt;
+  const double limit = options.max_hole_perimeter * h;
+  if (geometry.perimeter > limit && inside.width > kLargeWidth * limit) return std::nullopt;
   return geometry.perimeter <= kSmoothPerimeter * h ? FillShape::smooth : FillShape::flat;
 }
 

@@ -19,11 +19,11 @@ struct HoleChoiceOptions {
 /// an open surface, which stays (no value):
 /// - a small loop (up to 12 h) is closed;
 /// - a loop with points of the cloud inside is closed whatever its size;
-/// - a round rim where the surface ends without leading into the hole, as at the end of a tube,
-///   stays;
+/// - a round rim where the surface ends without leading into the hole, as at the end of a tube, and
+///   the outline of a sheet stay;
 /// - a crack, nowhere wider than narrow_width, is closed whatever its length;
 /// - others are first zipped where their sides are close, since cracks often open into a border;
-/// - once zipped, those up to max_hole_perimeter are closed.
+/// - once zipped, those up to max_hole_perimeter are closed, and longer ones unless they are wide.
 /// Loops of more than 6000 edges always stay.
 /// @param is_zipped whether loops have been zipped before
 /// @param cloud points of the cloud; may be empty: no evidence

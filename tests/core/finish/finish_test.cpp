@@ -106,6 +106,14 @@ TEST_CASE("the border of an open surface stays open") {
       p = Vec3(4.0 * h * p.x, 4.0 * h * p.y, p.z);
     testing::cut_where(mesh, [](const Vec3& p) { return p.z > 0.0; });
   }
+  SECTION("a terrain") {
+    testing::cut_where(mesh, [](const Vec3& p) { return p.z > -0.7; });
+    for (Vec3& p : mesh.positions)
+      p.z *= 0.3;
+  }
+  SECTION("a strip") {
+    testing::cut_where(mesh, [](const Vec3& p) { return p.z > -0.8 || std::abs(p.y) > 0.1; });
+  }
   const std::size_t faces = mesh.triangles.size();
   FinishOptions options = options_for(kN, FinishMethod::fast);
   options.min_component = 10;
