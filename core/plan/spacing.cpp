@@ -17,6 +17,8 @@ namespace {
 constexpr std::size_t kQueries = 300;
 constexpr std::size_t kNeighbours = 16;
 
+constexpr double kPixelsPerNoise = 4.0;  // a step of one pixel is then rarely noise
+
 /// Points looked at before all others, so that the search radius is small from then on.
 constexpr std::size_t kFirstLook = 20'000;
 
@@ -211,14 +213,23 @@ Spacing estimate_spacing(std::span<const Vec3> points) {
   }
   return {.median = quantile(spacings, 0.5),
           .quantile75 = quantile(spacings, 0.75),
-          .noise = quantile(noises, 0.5)};
+          .noise = quantile(noises, 0.5),
+          .diagonal = robust_bounds(points).diagonal()};
+}
+
+double closed_sheet_pixel_size(const Spacing& spacing) {
+  constexpr double kPixelsPerSpacing = 2.2;  // about five points in a pixel
+  return std::max(kPixelsPerSpacing * 0.5 * (spacing.median + spacing.quantile75),
+                  kPixelsPerNoise * spacing.noise);
 }
 
 double pixel_size_from_spacing(const Spacing& spacing) {
-  constexpr double kPixelsPerSpacing = 2.2;  // about five points in a pixel
-  constexpr double kPixelsPerNoise = 4.0;    // a step of one pixel is then rarely noise
-  return std::max(kPixelsPerSpacing * 0.5 * (spacing.median + spacing.quantile75),
-                  kPixelsPerNoise * spacing.noise);
+  constexpr double kFewestPerSpacing = 1.4;  // two points in a pixel
+  constexpr double kPixelsAcross = 150.0;
+  const double finest = std::max(kFewestPerSpacing * 0.5 * (spacing.median + spacing.quantile75),
+                                 kPixelsPerNoise * spacing.noise);
+  return std::min(closed_sheet_pixel_size(spacing),
+                  std::max(finest, spacing.diagonal / kPixelsAcross));
 }
 
 }  // namespace rangezip

@@ -14,6 +14,7 @@ struct Spacing {
   double median = 0.0;      ///< 1 / sqrt(density), model units
   double quantile75 = 0.0;  ///< three quarters of the cloud are at least this dense
   double noise = 0.0;       ///< median distance (RMS) of points from their neighbours' plane
+  double diagonal = 0.0;    ///< of robust_bounds(), model units
 };
 
 /// Estimates the spacing from the distance to the 16th neighbour of up to 300 points spread evenly
@@ -25,7 +26,13 @@ struct Spacing {
 /// @throws InvalidArgument if fewer than three distinct points are given.
 [[nodiscard]] Spacing estimate_spacing(std::span<const Vec3> points);
 
-/// The pixel side for a cloud: 2.2 times the mean of median and 75 % spacing, at least 4 noise.
+/// The pixel side at which a cloud's sheet has hardly a gap: 2.2 times the mean of median and 75 %
+/// spacing, at least 4 noise.
+[[nodiscard]] double closed_sheet_pixel_size(const Spacing& spacing);
+
+/// The pixel side for the scans of a cloud: that of the closed sheet, but down to 1.4 spacings
+/// where the cloud is so sparse that fewer than 150 pixels would lie across it; shape is worth more
+/// then than closed pixels.
 [[nodiscard]] double pixel_size_from_spacing(const Spacing& spacing);
 
 /// A box that leaves out far outliers. Per axis the middle half of the cloud is widened on both

@@ -59,7 +59,7 @@ void check_arguments(std::span<const Vec3> points, double pixel_size,
 double planning_pixel_size(std::span<const Vec3> subset, double pixel_size) {
   constexpr std::size_t kFewestForSpacing = 100;
   if (subset.size() < kFewestForSpacing) return pixel_size;
-  return std::max(pixel_size, pixel_size_from_spacing(estimate_spacing(subset)));
+  return std::max(pixel_size, closed_sheet_pixel_size(estimate_spacing(subset)));
 }
 
 Subset choose_subset(std::span<const Vec3> points, double pixel_size, std::size_t wanted) {

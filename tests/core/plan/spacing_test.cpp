@@ -83,9 +83,23 @@ TEST_CASE("estimate_spacing measures noise across the surface") {
   // lies 2.4 % below, and scatters by 24 % / sqrt(300) = 1.4 %. The plane of 17 points in 3D takes
   // the least spread, which costs some more.
   CHECK(spacing.noise == Approx(sigma).epsilon(0.15));
-  CHECK(pixel_size_from_spacing(spacing) ==
-        Approx(2.2 * 0.5 * (spacing.median + spacing.quantile75)).epsilon(1e-12));
-  CHECK(pixel_size_from_spacing({.median = 1.0, .quantile75 = 1.0, .noise = 2.0}) == 8.0);
+}
+
+TEST_CASE(
+    "pixel_size_from_spacing closes the sheet of a dense cloud and keeps the shape of a sparse "
+    "one") {
+  const auto size = [](double diagonal, double noise) {
+    return pixel_size_from_spacing(
+        {.median = 1.0, .quantile75 = 1.5, .noise = noise, .diagonal = diagonal});
+  };
+  const double mean = 1.25;
+  CHECK(size(1000.0, 0.0) == Approx(2.2 * mean));
+  CHECK(size(150.0 * 2.0 * mean, 0.0) == Approx(2.0 * mean));  // 150 pixels across
+  CHECK(size(10.0, 0.0) == Approx(1.4 * mean));
+  CHECK(size(1000.0, 2.0) == 8.0);  // four times the noise, dense or sparse
+  CHECK(size(10.0, 2.0) == 8.0);
+  CHECK(closed_sheet_pixel_size({.median = 1.0, .quantile75 = 1.5, .diagonal = 10.0}) ==
+        Approx(2.2 * mean));
 }
 
 TEST_CASE("estimate_spacing works with as few as three points") {

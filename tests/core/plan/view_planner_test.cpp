@@ -13,7 +13,7 @@ namespace {
 
 ViewPlan plan_for(const std::vector<Vec3>& points, const ViewPlanOptions& options = {}) {
   CpuRasterizer rasterizer;
-  return plan_views(rasterizer, points, pixel_size_from_spacing(estimate_spacing(points)), options);
+  return plan_views(rasterizer, points, closed_sheet_pixel_size(estimate_spacing(points)), options);
 }
 
 std::vector<Vec3> points_on(const TriangleSoup& soup, std::size_t count = 40'000) {

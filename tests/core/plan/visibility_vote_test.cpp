@@ -24,7 +24,7 @@ Voted vote_on(const TriangleSoup& soup, std::size_t count = kCount) {
   Scene scene;
   scene.add(cloud);
   CpuRasterizer rasterizer;
-  const double h = pixel_size_from_spacing(estimate_spacing(scene.points()));
+  const double h = closed_sheet_pixel_size(estimate_spacing(scene.points()));
   return {scene.points(), visibility_votes(rasterizer, scene, h)};
 }
 
