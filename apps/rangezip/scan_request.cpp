@@ -23,7 +23,11 @@ void add_switch(CLI::App& command, const std::string& name, std::optional<bool>&
                 const std::string& text) {
   command
       .add_flag_function(
-          "--" + name + ",!--no-" + name, [&target](std::int64_t count) { target = count > 0; },
+          "--" + name + ",!--no-" + name,
+          [&target, name](std::int64_t sum) {  // +1 for each time it is given, -1 for its opposite
+            if (sum == 0) throw CLI::ValidationError("--" + name, "given with its opposite");
+            target = sum > 0;
+          },
           text)
       ->group("Passes");
 }
@@ -121,9 +125,14 @@ void add_pass_options(CLI::App& command, ScanChoices& choices) {
       ->group("Passes");
 }
 
-/// The camera and the image of a parallel scan.
-void frame_parallel(AddScan& command, const Box& bounds, double pixel_size,
-                    const ScanChoices& choices) {
+/// A camera with its image, and the side of a pixel in the middle of what it sees.
+struct Framing {
+  Camera camera;
+  Extent extent;
+  double pixel_size = 0.0;  ///< model units
+};
+
+Framing frame_parallel(const Box& bounds, double pixel_size, const ScanChoices& choices) {
   FramedCamera framed = frame_box(bounds, choices.direction, pixel_size, kMargin, choices.up);
   if (choices.size) {
     const Extent size = *choices.size;
@@ -134,13 +143,11 @@ void frame_parallel(AddScan& command, const Box& bounds, double pixel_size,
     framed.camera.lens = Orthographic{.height = pixel_size * size.height};
     framed.extent = size;
   }
-  command.scan.camera = std::move(framed.camera);
-  command.scan.extent = framed.extent;
+  return {std::move(framed.camera), framed.extent, pixel_size};
 }
 
-/// The same for a central projection: the eye stands where the sphere around the box just fits.
-void frame_perspective(AddScan& command, const Box& bounds, double pixel_size,
-                       const ScanChoices& choices) {
+/// The eye stands where the sphere around the box just fits into the angle.
+Framing frame_perspective(const Box& bounds, double pixel_size, const ScanChoices& choices) {
   constexpr double kHalfTurn = 180.0;
   if (*choices.perspective >= kHalfTurn) {
     throw UsageError("--perspective: must be less than 180 degrees");
@@ -153,25 +160,22 @@ void frame_perspective(AddScan& command, const Box& bounds, double pixel_size,
   const double aspect =
       choices.size ? static_cast<double>(choices.size->width) / choices.size->height : 1.0;
   const double narrow = slope * std::min(1.0, aspect);
-  const double radius = 0.5 * bounds.diagonal();
-  const double distance = radius * std::sqrt(1.0 + 1.0 / (narrow * narrow));
+  const double distance = 0.5 * bounds.diagonal() * std::sqrt(1.0 + 1.0 / (narrow * narrow));
 
-  FramedCamera framed = frame_box(bounds, choices.direction, pixel_size, kMargin, choices.up);
-  Camera& camera = framed.camera;  // moved along its line of sight to the new distance
-  const Vec4 center = camera.eye_from_world * Vec4(bounds.center(), 1.0);
-  camera.eye_from_world[3].z -= distance + center.z;
-  camera.lens = Perspective{.fov_y = fov_y};
-  if (choices.size) {
-    command.scan.extent = *choices.size;
-  } else {
-    const double side = std::ceil(2.0 * slope * distance / pixel_size);
-    if (side > kMaxRasterExtent) {
-      throw UsageError("--perspective: an image of " + std::to_string(static_cast<long>(side)) +
-                       " pixels is too large; give --size or a larger --pixel-size");
-    }
-    command.scan.extent = {static_cast<int>(side), static_cast<int>(side)};
+  const double side = std::ceil(2.0 * slope * distance / pixel_size);
+  if (!choices.size && side > kMaxRasterExtent) {
+    throw UsageError("--perspective: the image would be larger than " +
+                     std::to_string(kMaxRasterExtent) +
+                     " pixels; give --size or a larger --pixel-size");
   }
-  command.scan.camera = fit_depth_planes(std::move(camera), bounds);
+  const Extent extent =
+      choices.size ? *choices.size : Extent{static_cast<int>(side), static_cast<int>(side)};
+  Camera camera = frame_box(bounds, choices.direction, pixel_size, kMargin, choices.up).camera;
+  const Vec4 center = camera.eye_from_world * Vec4(bounds.center(), 1.0);
+  camera.eye_from_world[3].z -= distance + center.z;  // back along the line of sight
+  camera.lens = Perspective{.fov_y = fov_y};
+  return {fit_depth_planes(std::move(camera), bounds), extent,
+          2.0 * slope * distance / extent.height};
 }
 
 /// Turns a pass on with its defaults, off, or leaves it as the method has it.
@@ -228,8 +232,13 @@ void add_scan_choices(CLI::App& command, ScanChoices& choices) {
 }
 
 AddScan make_scan(const Scene& scene, const ScanChoices& choices) {
-  const Resolution resolution =
-      choose_resolution(scene, evidence_points(scene), choices.pixel_size, std::nullopt);
+  const std::vector<Vec3> samples = evidence_points(scene);
+  const Resolution wanted = choose_resolution(scene, samples, choices.pixel_size, std::nullopt);
+  Framing framing = choices.perspective
+                        ? frame_perspective(wanted.bounds, wanted.pixel_size, choices)
+                        : frame_parallel(wanted.bounds, wanted.pixel_size, choices);
+  // What depends on the pixel size follows the one that the image really has.
+  const Resolution resolution = choose_resolution(scene, samples, framing.pixel_size, std::nullopt);
   const ScanRecipe recipe{.method = choices.method,
                           .bounds = resolution.bounds,
                           .pixel_size = resolution.pixel_size,
@@ -238,12 +247,9 @@ AddScan make_scan(const Scene& scene, const ScanChoices& choices) {
   constexpr std::uint32_t kFirstView = 0;
   AddScan command = choices.only_new ? fill_scan(recipe, choices.direction, kFirstView)
                                      : planned_scan(recipe, choices.direction, kFirstView);
-  if (choices.perspective) {
-    frame_perspective(command, resolution.bounds, resolution.pixel_size, choices);
-  } else {
-    frame_parallel(command, resolution.bounds, resolution.pixel_size, choices);
-  }
+  command.scan.camera = std::move(framing.camera);
   command.scan.camera.clip_planes = choices.clip_planes;
+  command.scan.extent = framing.extent;
   command.scan.region = choices.region;
   if (choices.point_size) command.scan.point_size = *choices.point_size;
   choose_passes(command, choices, resolution.pixel_size);

@@ -148,7 +148,9 @@ Picture draw_picture(Rasterizer& rasterizer, const PictureContent& content, cons
   const Framebuffer drawn = draw(rasterizer, view, content, options.point_size * factor);
   const Grid<double> depths = eye_depths(view, drawn);
   LightImage light = shade(view, drawn, depths, content.mesh,
-                           {.flat = options.flat, .hollow_radius = kHollowRadius * fine.height});
+                           {.flat = options.flat,
+                            .hollow_radius = kHollowRadius * fine.height,
+                            .point_reach = options.point_size * factor / 2 + 1});
   if (options.edges) {
     paint_lines(light, view, depths, content.mesh, edges_of(content.mesh, false),
                 {.color = kEdgeColor, .width = 0.8 * factor, .opacity = 0.55});

@@ -101,6 +101,7 @@ class Shader {
         depths_(depths),
         face_count_(mesh.triangles.size()),
         radius_(options.hollow_radius),
+        reach_(options.point_reach),
         normals_(mesh, options.flat) {}
 
   [[nodiscard]] Vec3 color(Pixel pixel) const {
@@ -160,16 +161,15 @@ class Shader {
   /// Points have no normal; what lies behind its neighbours is darker ("eye-dome lighting"), and
   /// what is far away is paler.
   [[nodiscard]] Vec3 point_color(Pixel pixel) const {
-    constexpr int kReach = 3;  // pixels
-    constexpr double kContrast = 0.12;
+    constexpr double kContrast = 0.36;
     const double depth = depths_[pixel];
     const double scale = 1.0 / view_.pixel_size(depth);
     double behind = 0.0;
     for (int dy = -1; dy <= 1; ++dy) {
       for (int dx = -1; dx <= 1; ++dx) {
-        const Pixel other{pixel.x + kReach * dx, pixel.y + kReach * dy};
+        const Pixel other{pixel.x + reach_ * dx, pixel.y + reach_ * dy};
         if (!depths_.extent().contains(other) || depths_[other] == kEmpty) continue;
-        behind += std::clamp((depth - depths_[other]) * scale, 0.0, 4.0 * kReach);
+        behind += std::clamp((depth - depths_[other]) * scale / reach_, 0.0, 4.0);
       }
     }
     const double light = 1.0 / (1.0 + kContrast * behind);
@@ -183,6 +183,7 @@ class Shader {
   const Grid<double>& depths_;
   std::size_t face_count_;
   double radius_;
+  int reach_;
   Normals normals_;
   Lights lights_;
   Taps taps_ = spiral_taps();

@@ -18,6 +18,7 @@ using LightImage = Grid<Vec3f>;
 struct ShadingOptions {
   bool flat = false;            ///< every face with its own normal
   double hollow_radius = 30.0;  ///< pixels; how far away a wall may stand to darken a place
+  int point_reach = 3;          ///< pixels; from the middle of a point to beyond its border
 };
 
 /// The colour of what each pixel shows: ids below the number of faces are faces of `mesh`, the

@@ -1,6 +1,7 @@
 #include "core/session/erase_region.h"
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,47 @@ Mask lasso_mask(const EraseRegion& command) {
                                 : mask_from_lasso(command.extent, command.region);
 }
 
+/// The pixel of the lasso that a point projects into, whatever may stand in front of it.
+std::optional<Pixel> lasso_pixel(const Vec3& point, const View& view, const Mask& lasso) {
+  if (view.is_perspective() && view.depth_of(point) <= 0.0) return std::nullopt;
+  for (const Plane& plane : view.camera().clip_planes) {
+    if (plane.value(point) < 0.0) return std::nullopt;
+  }
+  const Vec3 window = view.window_from_world(point);
+  const Extent extent = lasso.extent();
+  const bool is_in_image =
+      window.x >= 0.0 && window.x < extent.width && window.y >= 0.0 && window.y < extent.height;
+  if (!is_in_image) return std::nullopt;
+  const Pixel pixel{static_cast<int>(window.x), static_cast<int>(window.y)};
+  if (lasso[pixel] == 0) return std::nullopt;
+  return pixel;
+}
+
+Vec3 centroid_of(const TriangleMesh& mesh, std::size_t face) {
+  const auto& [a, b, c] = mesh.triangles[face];
+  return (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3.0;
+}
+
+bool faces_viewer(const TriangleMesh& mesh, std::size_t face, const View& view) {
+  const auto& [a, b, c] = mesh.triangles[face];
+  const Vec3 area = area_vector(mesh.positions[a], mesh.positions[b], mesh.positions[c]);
+  return glm::dot(area, view.toward_viewer(mesh.positions[a])) > 0.0;
+}
+
+/// Whether a face that holds no pixel centre belongs to the sheet that its pixel shows: it lies
+/// within a few pixel sides of it in depth and is turned to the same side.
+bool is_on_visible_sheet(const TriangleMesh& mesh, std::size_t face, Pixel pixel, const View& view,
+                         const Framebuffer& drawn) {
+  constexpr double kReach = 4.0;  // pixel sides: the steepest slope over one pixel
+  constexpr double kDepthUnit = 1.0 / (1U << static_cast<unsigned>(kDepthBits));
+  const PrimitiveId seen = drawn.id[pixel];
+  if (seen == kNoPrimitive) return true;  // nothing is in front of it
+  const double depth = view.depth_from_window_z(drawn.depth[pixel] * kDepthUnit);
+  const double behind = view.depth_of(centroid_of(mesh, face)) - depth;
+  return behind <= kReach * view.pixel_size(depth) &&
+         faces_viewer(mesh, face, view) == faces_viewer(mesh, seen, view);
+}
+
 FaceFlags visible_faces(const TriangleMesh& mesh, const View& view, const Mask& lasso,
                         Rasterizer& rasterizer) {
   FaceFlags erased(mesh.triangles.size(), 0);
@@ -30,30 +72,18 @@ FaceFlags visible_faces(const TriangleMesh& mesh, const View& view, const Mask& 
     const PrimitiveId face = drawn.id.pixels()[i];
     if (lasso.pixels()[i] != 0 && face != kNoPrimitive) erased[face] = 1;
   }
+  for (std::size_t face = 0; face < erased.size(); ++face) {
+    if (erased[face] != 0) continue;
+    const auto pixel = lasso_pixel(centroid_of(mesh, face), view, lasso);
+    if (pixel && is_on_visible_sheet(mesh, face, *pixel, view, drawn)) erased[face] = 1;
+  }
   return erased;
-}
-
-/// Whether the view sees the place of `point`, whatever may stand in front of it.
-bool is_in_lasso(const Vec3& point, const View& view, const Mask& lasso) {
-  if (view.is_perspective() && view.depth_of(point) <= 0.0) return false;
-  for (const Plane& plane : view.camera().clip_planes) {
-    if (plane.value(point) < 0.0) return false;
-  }
-  const Vec3 window = view.window_from_world(point);
-  const Extent extent = lasso.extent();
-  if (!(window.x >= 0.0 && window.x < extent.width && window.y >= 0.0 &&
-        window.y < extent.height)) {
-    return false;
-  }
-  return lasso[{static_cast<int>(window.x), static_cast<int>(window.y)}] != 0;
 }
 
 FaceFlags all_faces_inside(const TriangleMesh& mesh, const View& view, const Mask& lasso) {
   FaceFlags erased(mesh.triangles.size(), 0);
-  for (std::size_t face = 0; face < mesh.triangles.size(); ++face) {
-    const auto& [a, b, c] = mesh.triangles[face];
-    const Vec3 centroid = (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3.0;
-    erased[face] = is_in_lasso(centroid, view, lasso) ? 1 : 0;
+  for (std::size_t face = 0; face < erased.size(); ++face) {
+    if (lasso_pixel(centroid_of(mesh, face), view, lasso)) erased[face] = 1;
   }
   return erased;
 }

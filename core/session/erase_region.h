@@ -13,10 +13,11 @@ struct EraseResult {
   std::size_t erased_faces = 0;  ///< with those that then hung on a vertex only
 };
 
-/// Deletes the faces that have a visible pixel inside the lasso; without `visible_only`, all faces
-/// whose centroid projects into it, in front of the eye and inside the clip planes, so that what
-/// lies behind goes too. Where two sheets then touch in a vertex only, the largest fan of faces
-/// stays, so the mesh remains manifold. O(faces + pixels).
+/// Deletes the faces that have a visible pixel inside the lasso, and those too small to have one
+/// whose centroid lies on the sheet that the lasso shows there. Without `visible_only`, all faces
+/// whose centroid projects into the lasso, in front of the eye and inside the clip planes, so that
+/// what lies behind goes too. Where two sheets then touch in a vertex only, the largest fan of
+/// faces stays, so the mesh remains manifold. O(faces + pixels).
 /// @throws InvalidArgument for a camera or extent that View refuses, or a lasso that
 ///     mask_from_lasso() refuses.
 [[nodiscard]] EraseResult erase_region(TriangleMesh mesh, Rasterizer& rasterizer,

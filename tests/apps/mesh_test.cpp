@@ -1,0 +1,195 @@
+// rangezip mesh: one command from a cloud to a verified mesh, the same bytes however it is run.
+
+#include <catch2/catch.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include "core/io/mesh_file.h"
+#include "core/mesh/mesh_report.h"
+#include "tests/apps/program.h"
+#include "tests/core/io/temporary_folder.h"
+#include "tests/support/shapes.h"
+
+using namespace rangezip;
+using namespace rangezip::test;
+using Catch::Contains;
+using Json = nlohmann::json;
+
+namespace {
+
+RunResult mesh(const TemporaryFolder& folder, const std::string& output,
+               const std::vector<std::string>& more = {}, const RunOptions& options = {}) {
+  std::vector<std::string> arguments{"mesh", folder / "sphere.ply", "-o", folder / output};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return run(arguments, options);
+}
+
+}  // namespace
+
+TEST_CASE("mesh makes one closed sphere of a cloud, and says so", "[apps]") {
+  const TemporaryFolder folder;
+  store_sphere(folder / "sphere.ply");
+  const RunResult result = mesh(folder, "out.ply", {"--report", folder / "r.json"});
+  CAPTURE(result.err);
+  REQUIRE(result.code == 0);
+  CHECK_THAT(result.out, Contains("20,000 points") &&
+                             Contains("1 component, 0 boundary loops, Euler number 2"));
+
+  const TriangleMesh read = read_mesh(folder / "out.ply");
+  CHECK_NOTHROW(check_mesh(read));
+  const MeshReport report = report_mesh(read);
+  CHECK(report.euler == 2);
+  CHECK(report.boundary_loops == 0);
+
+  const Json json = Json::parse(load(folder / "r.json"));
+  REQUIRE(json["inputs"].size() == 1);
+  CHECK(json["inputs"][0]["points"] == 20'000);
+  CHECK(json["inputs"][0]["skipped"]["nonfinite_points"] == 0);
+  CHECK(json["mesh"]["vertices"] == report.vertices);
+  CHECK(json["mesh"]["faces"] == report.faces);
+  CHECK(json["mesh"]["components"] == 1);
+  CHECK(json["mesh"]["boundary_loops"] == 0);
+  CHECK(json["mesh"]["euler_number"] == 2);
+  CHECK(json["mesh"]["nonmanifold_edges"] == 0);
+  CHECK(json["mesh"]["self_intersections"] == 0);
+  CHECK(json["coverage"] > 0.99);
+  CHECK(json["views"].size() >= 4);
+  CHECK(json["views"][0]["kind"] == "planned");
+  CHECK(json["dropped"].contains("components"));
+  double seconds = 0.0;
+  for (const Json& stage : json["stages"])
+    seconds += stage["seconds"].get<double>();
+  CHECK(json["stages"].size() >= 6);
+  CHECK(seconds > 0.0);
+}
+
+TEST_CASE("mesh gives the same bytes again, with one thread, and without AVX2 and FMA", "[apps]") {
+  const TemporaryFolder folder;
+  store_sphere(folder / "sphere.ply");
+  REQUIRE(mesh(folder, "a.ply").code == 0);
+  const std::string bytes = load(folder / "a.ply");
+  REQUIRE(mesh(folder, "b.ply").code == 0);
+  CHECK((load(folder / "b.ply") == bytes));
+  REQUIRE(mesh(folder, "c.ply", {"--threads", "1"}).code == 0);
+  CHECK((load(folder / "c.ply") == bytes));
+  REQUIRE(mesh(folder, "d.ply", {"--threads", "2"}).code == 0);
+  CHECK((load(folder / "d.ply") == bytes));
+  // The names of glibc 2.33 and later; those before it end in "_Usable".
+  const RunOptions plain_libm{
+      .environment = {{"GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4"}}};
+  REQUIRE(mesh(folder, "e.ply", {}, plain_libm).code == 0);
+  CHECK((load(folder / "e.ply") == bytes));
+}
+
+TEST_CASE("a recorded mesh run plays to the same bytes", "[apps]") {
+  const TemporaryFolder folder;
+  store_sphere(folder / "sphere.ply");
+  for (const std::string method : {"auto", "paper"}) {
+    CAPTURE(method);
+    const RunResult recorded =
+        mesh(folder, "a.ply", {"--method", method, "--session", folder / "s.json"});
+    REQUIRE(std::filesystem::exists(folder / "s.json"));
+    const RunResult played = run({"play", folder / "s.json", "-o", folder / "b.ply"});
+    CAPTURE(recorded.err, played.err);
+    REQUIRE(played.code == 0);
+    CHECK((load(folder / "a.ply") == load(folder / "b.ply")));
+  }
+}
+
+TEST_CASE("mesh writes every type, and more on demand", "[apps]") {
+  const TemporaryFolder folder;
+  store_sphere(folder / "sphere.ply", 5000);
+  REQUIRE(mesh(folder, "a.ply").code == 0);
+  const TriangleMesh reference = read_mesh(folder / "a.ply");
+  for (const char* name : {"a.obj", "a.off"}) {
+    CAPTURE(name);
+    REQUIRE(mesh(folder, name).code == 0);
+    CHECK(read_mesh(folder / name).positions == reference.positions);
+  }
+  REQUIRE(mesh(folder, "a.stl").code == 0);
+  CHECK(read_mesh(folder / "a.stl").triangles.size() == reference.triangles.size());
+  REQUIRE(mesh(folder, "b.ply", {"--ascii"}).code == 0);
+  CHECK_THAT(load(folder / "b.ply"), Contains("format ascii"));
+}
+
+TEST_CASE("the options of mesh do what they say", "[apps]") {
+  const TemporaryFolder folder;
+  store_sphere(folder / "sphere.ply");
+  const auto faces = [&](const std::vector<std::string>& more) {
+    const RunResult result = mesh(folder, "out.ply", more);
+    CAPTURE(result.err);
+    CHECK((result.code == 0 || result.code == 5));
+    return static_cast<double>(read_mesh(folder / "out.ply").triangles.size());
+  };
+  // Half the pixel size, four times the faces; a target within a factor of 1.5.
+  const double coarse = faces({"--pixel-size", "0.08"});
+  const double fine = faces({"--pixel-size", "0.04"});
+  CHECK(fine / coarse > 3.0);
+  CHECK(fine / coarse < 5.0);
+  const double wanted = faces({"--triangles", "4000"});
+  CHECK(wanted > 4000 / 1.5);
+  CHECK(wanted < 4000 * 1.5);
+
+  mesh(folder, "out.ply", {"--views", "3", "--finish", "none", "--report", folder / "r.json"});
+  const Json report = Json::parse(load(folder / "r.json"));
+  std::size_t planned = 0;
+  for (const Json& view : report["views"])
+    planned += view["kind"] == "planned" ? 1 : 0;
+  CHECK(planned <= 3);
+  CHECK_FALSE(report.contains("finish"));
+  REQUIRE(mesh(folder, "out.ply", {"--finish", "fast"}).code == 0);
+}
+
+TEST_CASE("an input may be overwritten by its mesh", "[apps]") {
+  const TemporaryFolder folder;
+  store_sphere(folder / "sphere.ply");
+  REQUIRE(mesh(folder, "out.ply").code == 0);
+  const std::string bytes = load(folder / "out.ply");
+  REQUIRE(mesh(folder, "sphere.ply").code == 0);
+  CHECK((load(folder / "sphere.ply") == bytes));
+  CHECK(folder.count() == 2);
+}
+
+TEST_CASE("a session is not recorded over the input it needs", "[apps]") {
+  const TemporaryFolder folder;
+  store_sphere(folder / "sphere.ply");
+  const std::string before = load(folder / "sphere.ply");
+  const RunResult result = mesh(folder, "sphere.ply", {"--session", folder / "s.json"});
+  CHECK(result.code == 1);
+  CHECK_THAT(result.err, Contains("would overwrite an input"));
+  CHECK((load(folder / "sphere.ply") == before));
+}
+
+TEST_CASE("points and polygons of several files make one mesh", "[apps]") {
+  const TemporaryFolder folder;
+  store_sphere(folder / "sphere.ply");
+  TriangleMesh box = shapes::to_mesh(shapes::cube(1.0));
+  write_mesh(folder / "box.obj", box);
+  const RunResult result = run({"mesh", folder / "sphere.ply", folder / "box.obj", "-o",
+                                folder / "out.ply", "--report", folder / "r.json"});
+  CAPTURE(result.err);
+  REQUIRE(result.code == 0);
+  const Json report = Json::parse(load(folder / "r.json"));
+  CHECK(report["inputs"].size() == 2);
+  CHECK(report["mesh"]["components"] == 2);
+}
+
+TEST_CASE("a .conf of scans is meshed, recorded with its scans and played back", "[apps]") {
+  const TemporaryFolder folder;
+  store_sphere(folder / "a.ply", 10'000);
+  store_sphere(folder / "b.ply", 8'000);
+  folder.store("scans.conf",
+               "camera 0 0 0 0 0 0 1\nbmesh a.ply 0 0 0 0 0 0 1\nbmesh b.ply 0 0 0 0 0 0 1\n");
+  const RunResult result = run(
+      {"mesh", folder / "scans.conf", "-o", folder / "out.ply", "--session", folder / "s.json"});
+  CAPTURE(result.err);
+  REQUIRE(result.code == 0);
+  CHECK_THAT(result.out, Contains("18,000 points"));
+  const Json session = Json::parse(load(folder / "s.json"));
+  CHECK(session["inputs"].size() == 1);
+  CHECK(session["also_read"].size() == 2);
+  REQUIRE(run({"play", folder / "s.json", "-o", folder / "b.out.ply"}).code == 0);
+  CHECK((load(folder / "out.ply") == load(folder / "b.out.ply")));
+  store_sphere(folder / "b.ply", 8'001);
+  CHECK(run({"play", folder / "s.json", "-o", folder / "c.ply"}).code == 2);
+}
