@@ -123,6 +123,21 @@ TEST_CASE("the border of an open surface stays open") {
   REQUIRE(result.mesh.triangles.size() >= faces - faces / 50);
 }
 
+TEST_CASE("a crack that opens into a border is zipped, and the border stays") {
+  constexpr int kN = 40;
+  const double h = 2.0 / kN;
+  TriangleMesh mesh = testing::sphere(kN);
+  testing::cut_where(mesh, [](const Vec3& p) { return p.z > 0.0; });
+  const double rim = report_mesh(mesh).longest_loop;
+  testing::cut_where(mesh, [&](const Vec3& p) { return std::abs(p.y) < 0.3 * h && p.x > 0.2; });
+  REQUIRE(report_mesh(mesh).longest_loop > rim + 2.0);  // up one side of the crack, down the other
+  const FinishResult result = finish(mesh, {}, options_for(kN, FinishMethod::fast));
+  require_clean(result.mesh);
+  REQUIRE(result.report.open_loops == 1);
+  REQUIRE(report_mesh(result.mesh).euler == 1);
+  REQUIRE(report_mesh(result.mesh).longest_loop < rim + 6.0 * h);
+}
+
 TEST_CASE("a large hole is closed if the cloud has points in it, and stays otherwise") {
   constexpr int kN = 40;
   TriangleMesh mesh = testing::sphere(kN);
