@@ -58,15 +58,14 @@ bool overlap(const Cone& a, const Cone& b) {
          a.contains(b.middle()) || b.contains(a.middle());
 }
 
-/// The cones of the old faces that look at the viewer, around each old end of a segment.
+/// The cones of the old faces that look at the viewer, around each end of a segment.
 class OldCones {
  public:
   OldCones(const Seam& seam, const LocalPoints& local) : begins_(local.vertices.size() + 1, 0) {
     std::vector<std::pair<std::uint32_t, Cone>> found;
-    std::vector<std::uint8_t> is_end(seam.first_new, 0);
-    for (const std::uint32_t v : local.vertices) {
-      if (v < seam.first_new) is_end[v] = 1;
-    }
+    std::vector<std::uint8_t> is_end(seam.positions.size(), 0);
+    for (const std::uint32_t v : local.vertices)
+      is_end[v] = 1;
     for (const Triangle& face : seam.old_faces) {
       for (std::size_t k = 0; k < 3; ++k) {
         if (is_end[face[k]] == 0) continue;
@@ -161,7 +160,6 @@ class Judge {
 
   [[nodiscard]] bool is_free_of_old_faces(const Triangle& t) const {
     for (std::size_t k = 0; k < 3; ++k) {
-      if (!is_old(t[k])) continue;
       const Cone cone{local_.points[t[k]], local_.points[t[(k + 1) % 3]],
                       local_.points[t[(k + 2) % 3]]};
       if (old_cones_.overlap_any(t[k], cone)) return false;

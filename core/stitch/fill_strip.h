@@ -30,7 +30,7 @@ struct Seam {
   const PatchSheet& sheet;
   std::uint32_t first_new = 0;
   std::span<const SeamSegment> segments;  ///< of both boundaries, without conflicts
-  std::span<const Triangle> old_faces;    ///< at least those around old ends of segments
+  std::span<const Triangle> old_faces;    ///< at least those around ends of segments
 };
 
 /// Fills the strip between the patch and the old surface: the triangles of the constrained

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/stitch/clean_up.h"
 #include "core/stitch/clear_and_fill.h"
 
 namespace rangezip {
@@ -27,7 +28,15 @@ void check_indices(const TriangleMesh& mesh) {
 StitchResult stitch(TriangleMesh mesh, const Scan& scan, const StitchOptions& options) {
   check_indices(mesh);
   if (scan.patch.mesh.empty()) return {std::move(mesh), {}};
-  return clear_and_fill(std::move(mesh), scan, options);
+  StitchReport report;
+  Joint joint = clear_and_fill(std::move(mesh), scan, options, report);
+  const CleanUpReport cleaned =
+      clean_up(joint.mesh, std::move(joint.touched), options.min_component);
+  report.opened_fans = cleaned.opened_fans;
+  report.split_vertices = cleaned.split_vertices;
+  report.dropped_components = cleaned.dropped_components;
+  report.dropped_faces = cleaned.dropped_faces;
+  return {std::move(joint.mesh), report};
 }
 
 }  // namespace rangezip
