@@ -148,7 +148,7 @@ std::uint32_t copy_vertex(TriangleMesh& mesh, std::uint32_t vertex) {
 }
 
 /// Gives every fan but the largest a vertex of its own; how many were made.
-std::size_t split_fans(TriangleMesh& mesh, const Stars& stars, std::vector<std::uint8_t>& touched) {
+std::size_t split_fans(TriangleMesh& mesh, const Stars& stars, std::vector<std::uint8_t>& marks) {
   const auto vertices = static_cast<std::uint32_t>(mesh.positions.size());
   Fans fans;
   std::vector<std::uint32_t> copies;
@@ -161,12 +161,14 @@ std::size_t split_fans(TriangleMesh& mesh, const Stars& stars, std::vector<std::
     for (std::uint32_t i = 0; i < star.size(); ++i) {
       if (fans.is_largest(i)) continue;
       std::uint32_t& copy = copies[fans.fan_of(i)];
-      if (copy == v) copy = copy_vertex(mesh, v);
+      if (copy == v) {
+        copy = copy_vertex(mesh, v);
+        marks.push_back(std::uint8_t(marks[v]));
+      }
       Triangle& face = mesh.triangles[star[i]];
       face[corner_of(face, v)] = copy;
     }
   }
-  touched.resize(mesh.positions.size(), 1);
   return mesh.positions.size() - vertices;
 }
 
@@ -197,10 +199,23 @@ void drop_small_components(TriangleMesh& mesh, const std::vector<std::uint8_t>& 
                 [&](const Triangle& face) { return is_small[find_root(parent, face[0])] != 0; });
 }
 
+void keep_marks_of_used_vertices(const TriangleMesh& mesh, std::vector<std::uint8_t>& marks) {
+  std::vector<std::uint8_t> is_used(mesh.positions.size(), 0);
+  for (const Triangle& face : mesh.triangles) {
+    for (const std::uint32_t v : face)
+      is_used[v] = 1;
+  }
+  std::size_t kept = 0;
+  for (std::size_t v = 0; v < is_used.size(); ++v) {
+    if (is_used[v] != 0) marks[kept++] = marks[v];
+  }
+  marks.resize(kept);
+}
+
 }  // namespace
 
 CleanUpReport clean_up(TriangleMesh& mesh, std::vector<std::uint8_t> touched,
-                       std::size_t min_component) {
+                       std::vector<std::uint8_t>& marks, std::size_t min_component) {
   CleanUpReport report;
   Stars stars(mesh, touched);
   for (int round = 0; round < kRounds; ++round) {
@@ -209,8 +224,10 @@ CleanUpReport clean_up(TriangleMesh& mesh, std::vector<std::uint8_t> touched,
     report.opened_fans += removed;
     stars = Stars(mesh, touched);
   }
-  report.split_vertices = split_fans(mesh, stars, touched);
+  report.split_vertices = split_fans(mesh, stars, marks);
+  touched.resize(mesh.positions.size(), 1);
   drop_small_components(mesh, touched, min_component, report);
+  keep_marks_of_used_vertices(mesh, marks);
   remove_unused_vertices(mesh);
   return report;
 }

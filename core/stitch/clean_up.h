@@ -21,8 +21,9 @@ struct CleanUpReport {
 /// faces, and all unused vertices. What is nowhere near a touched vertex stays as it is.
 ///
 /// @param touched one per vertex: 1 where faces came or went
+/// @param marks one per vertex; they follow the vertices, to copies as well
 /// @pre no directed edge in two faces, and vertices not touched are manifold
 [[nodiscard]] CleanUpReport clean_up(TriangleMesh& mesh, std::vector<std::uint8_t> touched,
-                                     std::size_t min_component);
+                                     std::vector<std::uint8_t>& marks, std::size_t min_component);
 
 }  // namespace rangezip

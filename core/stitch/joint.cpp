@@ -92,7 +92,7 @@ void SeamEdges::mark_patch_boundary() {
       const SeamSegment edge{joint_.vertex_of_patch[from], joint_.vertex_of_patch[to]};
       patch_boundary_.push_back(edge);
       for (const std::uint32_t v : edge)
-        is_near_[v] = joint_.touched[v] = 1;
+        is_near_[v] = joint_.touched[v] = joint_.seam[v] = 1;
     }
   }
 }
@@ -164,6 +164,7 @@ Joint begin_joint(TriangleMesh mesh, const Scan& scan, std::uint32_t view) {
   joint.vertex_of_patch.resize(pixels.size());
   std::iota(joint.vertex_of_patch.begin(), joint.vertex_of_patch.end(), joint.first_new);
   joint.touched.assign(joint.mesh.positions.size(), 0);
+  joint.seam = joint.touched;
   return joint;
 }
 

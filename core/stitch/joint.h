@@ -21,6 +21,7 @@ struct Joint {
   std::vector<std::uint32_t> vertex_of_patch;  ///< differs from first_new + i where the vertex of
                                                ///< the patch became one with an old one
   std::vector<std::uint8_t> touched;           ///< per vertex: faces around it came or went
+  std::vector<std::uint8_t> seam;              ///< per vertex: on the boundary of the patch
 };
 
 /// The mesh with the vertices of the patch, but without its faces.

@@ -1,11 +1,14 @@
 #include "core/stitch/stitch.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/stitch/clean_up.h"
 #include "core/stitch/clear_and_fill.h"
+#include "core/stitch/collapse_seam.h"
+#include "core/stitch/zipper.h"
 
 namespace rangezip {
 
@@ -23,19 +26,33 @@ void check_indices(const TriangleMesh& mesh) {
   }
 }
 
+/// Of the samples of the patch, model units.
+double smallest_pixel_side(const Scan& scan) {
+  double side = kNoSample;
+  for (const Pixel p : scan.patch.pixels)
+    side = std::min(side, scan.image.pixel_size(p));
+  return side;
+}
+
 }  // namespace
 
 StitchResult stitch(TriangleMesh mesh, const Scan& scan, const StitchOptions& options) {
   check_indices(mesh);
   if (scan.patch.mesh.empty()) return {std::move(mesh), {}};
   StitchReport report;
-  Joint joint = clear_and_fill(std::move(mesh), scan, options, report);
+  const bool is_zipper = options.method == StitchMethod::zipper;
+  Joint joint = is_zipper ? zipper(std::move(mesh), scan, options, report)
+                          : clear_and_fill(std::move(mesh), scan, options, report);
   const CleanUpReport cleaned =
-      clean_up(joint.mesh, std::move(joint.touched), options.min_component);
+      clean_up(joint.mesh, std::move(joint.touched), joint.seam, options.min_component);
   report.opened_fans = cleaned.opened_fans;
   report.split_vertices = cleaned.split_vertices;
   report.dropped_components = cleaned.dropped_components;
   report.dropped_faces = cleaned.dropped_faces;
+  if (is_zipper && options.collapse_ratio > 0.0) {
+    report.collapsed_edges = collapse_short_seam_edges(
+        joint.mesh, joint.seam, options.collapse_ratio * smallest_pixel_side(scan));
+  }
   return {std::move(joint.mesh), report};
 }
 

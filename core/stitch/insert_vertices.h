@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/stitch/patch_sheet.h"
+#include "core/stitch/sheet_mesh.h"
+
+namespace rangezip {
+
+/// A vertex of the patch's boundary to be put into the old surface.
+struct BoundaryVertex {
+  std::uint32_t index = 0;  ///< in the whole mesh, where it has its position already
+  Pixel pixel;
+  Vec3 position{0.0};
+  double depth = 0.0;
+};
+
+struct InsertedVertices {
+  /// For each vertex its handle in the sheet; invalid where the sheet has no place for it.
+  std::vector<SheetMesh::VertexHandle> handles;
+  std::size_t inserted = 0;  ///< valid handles
+};
+
+/// First step of zippering: every boundary vertex is put into the old face on which it lies in the
+/// image: into its inside (one face becomes three), onto an edge (two become four), or it takes the
+/// place of an old vertex that has the same image; that one moves to its position and keeps its
+/// index. The face is found by a walk from the corresponding one, since that was found on the
+/// rasterizer's coarser grid. A vertex stays out where the walk leaves the sheet or the surface
+/// found is farther than 1.5 `band` (pixel sides times stretch) in depth [Kobbelt, Botsch 2000,
+/// 4.4].
+/// @param faces where each walk starts: the corresponding face in the sheet; invalid: none
+[[nodiscard]] InsertedVertices insert_boundary_vertices(
+    SheetMesh& sheet, std::span<const BoundaryVertex> vertices,
+    std::span<const SheetMesh::FaceHandle> faces, const PatchSheet& patch, double band);
+
+}  // namespace rangezip

@@ -1,0 +1,213 @@
+#include "core/stitch/zipper.h"
+
+#include <algorithm>
+
+#include "core/mesh/edge_map.h"
+#include "core/stitch/insert_segments.h"
+#include "core/stitch/insert_vertices.h"
+#include "core/stitch/patch_sheet.h"
+#include "core/stitch/remove_covered.h"
+#include "core/stitch/sheet_mesh.h"
+
+namespace rangezip {
+
+namespace {
+
+/// Marks the old faces that the steps may change: those whose box in the image meets the patch's.
+std::vector<std::uint8_t> faces_near_patch(const Joint& joint, const PatchSheet& sheet) {
+  const GridPoint lower = grid_point(sheet.first_pixel());
+  const GridPoint upper = grid_point(sheet.last_pixel());
+  std::vector<std::uint8_t> marked(joint.old_faces, 0);
+  for (std::size_t f = 0; f < joint.old_faces; ++f) {
+    const Triangle& face = joint.mesh.triangles[f];
+    const bool is_visible = std::all_of(face.begin(), face.end(),
+                                        [&](std::uint32_t v) { return joint.image.has_image(v); });
+    const GridPoint& a = joint.image.points[face[0]];
+    const GridPoint& b = joint.image.points[face[1]];
+    const GridPoint& c = joint.image.points[face[2]];
+    const bool is_near =
+        std::min({a.x, b.x, c.x}) <= upper.x && std::max({a.x, b.x, c.x}) >= lower.x &&
+        std::min({a.y, b.y, c.y}) <= upper.y && std::max({a.y, b.y, c.y}) >= lower.y;
+    marked[f] = is_visible && is_near ? 1 : 0;
+  }
+  return marked;
+}
+
+/// The directed boundary edges of the patch, by its own vertices.
+std::vector<std::array<std::uint32_t, 2>> boundary_of(const Patch& patch, const PatchSheet& sheet) {
+  std::vector<std::array<std::uint32_t, 2>> boundary;
+  for (const Triangle& t : patch.mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = t[k];
+      const std::uint32_t to = t[(k + 1) % 3];
+      if (!sheet.has_edge(patch.pixels[to], patch.pixels[from])) boundary.push_back({from, to});
+    }
+  }
+  return boundary;
+}
+
+class Zipper {
+ public:
+  Zipper(Joint& joint, const Scan& scan, const StitchOptions& options, StitchReport& report)
+      : joint_(joint),
+        scan_(scan),
+        options_(options),
+        report_(report),
+        patch_sheet_(scan, sheet_radius(options)),
+        cut_(faces_near_patch(joint, patch_sheet_)),
+        sheet_(cut_out(joint.mesh, cut_)),
+        boundary_(boundary_of(scan.patch, patch_sheet_)) {
+    set_image(sheet_, joint.image);
+  }
+
+  void insert_vertices();
+  void insert_segments();
+  void remove_covered();
+  void join();
+
+ private:
+  [[nodiscard]] std::vector<std::uint32_t> boundary_vertices() const;
+  [[nodiscard]] std::vector<SheetMesh::FaceHandle> start_faces(
+      std::span<const std::uint32_t> vertices) const;
+  void merge(std::uint32_t patch_vertex, std::uint32_t old_vertex);
+  [[nodiscard]] std::vector<Triangle> faces_beside_patch() const;
+
+  Joint& joint_;
+  const Scan& scan_;
+  const StitchOptions& options_;
+  StitchReport& report_;
+  PatchSheet patch_sheet_;
+  std::vector<std::uint8_t> cut_;  ///< per old face: in the sheet
+  SheetMesh sheet_;
+  std::vector<std::array<std::uint32_t, 2>> boundary_;
+  std::vector<SheetMesh::VertexHandle>
+      handles_;  ///< per vertex of the patch; invalid: not in sheet
+};
+
+/// Each vertex of the boundary once, in the order of the patch.
+std::vector<std::uint32_t> Zipper::boundary_vertices() const {
+  std::vector<std::uint32_t> vertices;
+  for (const auto& edge : boundary_)
+    vertices.insert(vertices.end(), edge.begin(), edge.end());
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
+/// The corresponding faces, by their numbers in the sheet.
+std::vector<SheetMesh::FaceHandle> Zipper::start_faces(
+    std::span<const std::uint32_t> vertices) const {
+  std::vector<SheetMesh::FaceHandle> faces;
+  const auto& in_whole = sheet_.face_in_whole;
+  for (const std::uint32_t v : vertices) {
+    const PrimitiveId whole = scan_.correspondence.face[scan_.patch.pixels[v]];
+    const auto found = std::lower_bound(in_whole.begin(), in_whole.end(), whole);
+    const bool is_in_sheet = found != in_whole.end() && *found == whole;
+    faces.push_back(is_in_sheet ? SheetMesh::FaceHandle(static_cast<int>(found - in_whole.begin()))
+                                : SheetMesh::FaceHandle());
+  }
+  return faces;
+}
+
+/// The vertex of the patch becomes one with an old one that has the same image.
+void Zipper::merge(std::uint32_t patch_vertex, std::uint32_t old_vertex) {
+  const std::uint32_t new_vertex = joint_.first_new + patch_vertex;
+  joint_.vertex_of_patch[patch_vertex] = old_vertex;
+  joint_.mesh.positions[old_vertex] = joint_.mesh.positions[new_vertex];
+  joint_.image.depths[old_vertex] = joint_.image.depths[new_vertex];
+  if (!joint_.mesh.sources.empty()) {
+    joint_.mesh.sources[old_vertex] = joint_.mesh.sources[new_vertex];
+  }
+}
+
+void Zipper::insert_vertices() {
+  const std::vector<std::uint32_t> vertices = boundary_vertices();
+  std::vector<BoundaryVertex> to_insert;
+  for (const std::uint32_t v : vertices) {
+    const std::uint32_t index = joint_.first_new + v;
+    to_insert.push_back({.index = index,
+                         .pixel = scan_.patch.pixels[v],
+                         .position = joint_.mesh.positions[index],
+                         .depth = joint_.image.depths[index]});
+  }
+  const InsertedVertices inserted = insert_boundary_vertices(
+      sheet_, to_insert, start_faces(vertices), patch_sheet_, options_.band);
+  handles_.resize(scan_.patch.pixels.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    handles_[vertices[i]] = inserted.handles[i];
+    if (!inserted.handles[i].is_valid()) continue;
+    const auto local = static_cast<std::size_t>(inserted.handles[i].idx());
+    const std::uint32_t index = sheet_.vertex_in_whole[local];
+    if (index < joint_.first_new) merge(vertices[i], index);
+  }
+  report_.inserted_vertices = inserted.inserted;
+  report_.skipped_vertices = vertices.size() - inserted.inserted;
+}
+
+void Zipper::insert_segments() {
+  std::vector<std::array<SheetMesh::VertexHandle, 2>> segments;
+  for (const auto& [from, to] : boundary_) {
+    if (handles_[from].is_valid() && handles_[to].is_valid()) {
+      segments.push_back({handles_[from], handles_[to]});
+    }
+  }
+  const InsertedSegments inserted = insert_boundary_segments(sheet_, segments);
+  report_.inserted_segments = inserted.inserted;
+  report_.skipped_segments = boundary_.size() - inserted.inserted;
+  report_.flipped_edges = inserted.flips;
+}
+
+void Zipper::remove_covered() {
+  report_.removed_faces = remove_covered_faces(sheet_, patch_sheet_, options_.band);
+}
+
+/// The faces left in the sheet, without those that claim a side of the patch's boundary that the
+/// patch itself takes: remains under a segment that could not be inserted.
+std::vector<Triangle> Zipper::faces_beside_patch() const {
+  EdgeMap boundary(boundary_.size());
+  for (const auto& [from, to] : boundary_) {
+    boundary.insert(joint_.vertex_of_patch[from], joint_.vertex_of_patch[to], 0);
+  }
+  std::vector<Triangle> faces = faces_in_whole(sheet_);
+  std::erase_if(faces, [&](const Triangle& face) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (boundary.find(face[k], face[(k + 1) % 3]) != EdgeMap::kNone) return true;
+    }
+    return false;
+  });
+  return faces;
+}
+
+/// Puts the sheet back into the whole and the patch beside it.
+void Zipper::join() {
+  for (const auto vertex : sheet_.mesh.vertices()) {  // fans can only part where there is an end
+    const auto local = static_cast<std::size_t>(vertex.idx());
+    if (sheet_.mesh.is_boundary(vertex)) joint_.touched[sheet_.vertex_in_whole[local]] = 1;
+  }
+  std::size_t kept = 0;
+  for (std::size_t f = 0; f < cut_.size(); ++f) {
+    if (cut_[f] == 0) joint_.mesh.triangles[kept++] = joint_.mesh.triangles[f];
+  }
+  joint_.mesh.triangles.resize(kept);
+  const std::vector<Triangle> faces = faces_beside_patch();
+  report_.removed_faces += sheet_.mesh.n_faces() - faces.size();
+  joint_.mesh.triangles.insert(joint_.mesh.triangles.end(), faces.begin(), faces.end());
+  joint_.old_faces = joint_.mesh.triangles.size();
+  add_patch_faces(joint_, scan_.patch, report_);
+}
+
+}  // namespace
+
+Joint zipper(TriangleMesh mesh, const Scan& scan, const StitchOptions& options,
+             StitchReport& report) {
+  Joint joint = begin_joint(std::move(mesh), scan, options.view);
+  Zipper zip(joint, scan, options, report);
+  zip.insert_vertices();
+  zip.insert_segments();
+  zip.remove_covered();
+  zip.join();
+  fill_seam(joint, scan, PatchSheet(scan, sheet_radius(options)), options, report);
+  return joint;
+}
+
+}  // namespace rangezip
