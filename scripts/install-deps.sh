@@ -17,7 +17,7 @@ packages=(
   libgl1-mesa-dri                       # raster_gl: Mesa's drivers behind EGL
   libcgal-dev libgmp-dev libmpfr-dev    # compare: the independent judge
   libcli11-dev libspdlog-dev libfmt-dev # apps
-  catch2 libbenchmark-dev               # tests, benchmarks
+  catch2 libbenchmark-dev time          # tests, benchmarks
 )
 
 missing=()
