@@ -16,7 +16,9 @@ namespace rangezip {
 
 namespace {
 
-int machine_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+int machine_threads() {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
 
 }  // namespace
 
@@ -27,7 +29,9 @@ void run_with_threads(int threads, const std::function<void()>& work) {
   arena.execute(work);
 }
 
-int thread_count() { return std::max(1, tbb::this_task_arena::max_concurrency()); }
+int thread_count() {
+  return std::max(1, tbb::this_task_arena::max_concurrency());
+}
 
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body) {
@@ -60,7 +64,9 @@ void run_with_threads(int threads, const std::function<void()>& work) {
   work();
 }
 
-int thread_count() { return allowed_threads > 0 ? allowed_threads : machine_threads(); }
+int thread_count() {
+  return allowed_threads > 0 ? allowed_threads : machine_threads();
+}
 
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body) {
@@ -99,7 +105,8 @@ void for_each_row(int height, const std::function<void(int)>& row) {
   constexpr std::size_t kRowsPerBlock = 8;
   parallel_for(static_cast<std::size_t>(std::max(0, height)), kRowsPerBlock,
                [&](std::size_t begin, std::size_t end) {
-                 for (std::size_t y = begin; y < end; ++y) row(static_cast<int>(y));
+                 for (std::size_t y = begin; y < end; ++y)
+                   row(static_cast<int>(y));
                });
 }
 

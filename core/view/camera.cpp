@@ -26,7 +26,8 @@ Mat4 eye_from_world_of(const Vec3& eye, const Vec3& right, const Vec3& up, const
   const std::array<Vec3, 3> axes{right, up, back};
   for (int row = 0; row < 3; ++row) {
     const Vec3& axis = axes[static_cast<std::size_t>(row)];
-    for (int column = 0; column < 3; ++column) m[column][row] = axis[column];
+    for (int column = 0; column < 3; ++column)
+      m[column][row] = axis[column];
     m[3][row] = -glm::dot(axis, eye);
   }
   return m;
@@ -76,8 +77,8 @@ Camera fit_depth_planes(Camera camera, const Box& bounds) {
   return camera;
 }
 
-FramedCamera frame_box(const Box& bounds, const Vec3& toward_viewer, double pixel_size,
-                       int margin, const std::optional<Vec3>& up) {
+FramedCamera frame_box(const Box& bounds, const Vec3& toward_viewer, double pixel_size, int margin,
+                       const std::optional<Vec3>& up) {
   if (!(pixel_size > 0.0) || !std::isfinite(pixel_size)) {
     throw InvalidArgument("frame_box: pixel_size must be positive and finite, got " +
                           std::to_string(pixel_size));

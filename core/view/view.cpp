@@ -35,7 +35,8 @@ bool is_rigid(const Mat4& m) {
 Mat4 inverse_of_rigid(const Mat4& m) {
   Mat4 inverse{1.0};
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) inverse[i][j] = m[j][i];
+    for (int j = 0; j < 3; ++j)
+      inverse[i][j] = m[j][i];
   }
   for (int i = 0; i < 3; ++i) {
     inverse[3][i] = -(inverse[0][i] * m[3][0] + inverse[1][i] * m[3][1] + inverse[2][i] * m[3][2]);
