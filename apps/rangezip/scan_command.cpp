@@ -148,6 +148,7 @@ void add_scan_command(CLI::App& app, Action& action) {
   add_mesh_file_options(command, options->file);
   add_common_options(command, options->common);
   command.footer(
+      "Each pass that is a flag has its opposite: --median, --no-median.\n"
       "The camera looks from --direction at the middle of the input. Lengths are in the units of "
       "the input.\nImages: bottom row first in PFM, top row first in PNG; infinity in a PFM is a "
       "pixel that saw nothing.");

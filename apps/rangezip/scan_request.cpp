@@ -18,18 +18,18 @@ namespace {
 
 constexpr int kMargin = 4;  ///< pixels around the object
 
-/// A flag with its opposite: --median and --no-median.
+/// A flag, and its opposite --no-..., which the help mentions once for all.
 void add_switch(CLI::App& command, const std::string& name, std::optional<bool>& target,
                 const std::string& text) {
+  const auto choose = [&target, name](bool choice) {
+    if (target == !choice) throw CLI::ValidationError("--" + name, "given with its opposite");
+    target = choice;
+  };
   command
-      .add_flag_function(
-          "--" + name + ",!--no-" + name,
-          [&target, name](std::int64_t sum) {  // +1 for each time it is given, -1 for its opposite
-            if (sum == 0) throw CLI::ValidationError("--" + name, "given with its opposite");
-            target = sum > 0;
-          },
-          text)
+      .add_flag_callback(
+          "--" + name, [choose] { choose(true); }, text)
       ->group("Passes");
+  command.add_flag_callback("--no-" + name, [choose] { choose(false); })->group("");
 }
 
 void add_count(CLI::App& command, const std::string& name, std::optional<int>& target, int lowest,
