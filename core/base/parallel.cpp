@@ -25,7 +25,8 @@ int machine_threads() {
 #ifdef RANGEZIP_WITH_TBB
 
 void run_with_threads(int threads, const std::function<void()>& work) {
-  tbb::task_arena arena(threads > 0 ? threads : machine_threads());
+  // More threads than cores gain nothing, and oneTBB complains about them on the error stream.
+  tbb::task_arena arena(threads > 0 ? std::min(threads, machine_threads()) : machine_threads());
   arena.execute(work);
 }
 

@@ -6,7 +6,7 @@
 namespace rangezip {
 
 /// Runs `work` with at most `threads` threads in every parallel loop inside it; 0 means as many
-/// as the machine has. Loops outside of any run_with_threads() use all.
+/// as the machine has, and more are not started. Loops outside of any run_with_threads() use all.
 /// Exceptions of `work` pass through.
 void run_with_threads(int threads, const std::function<void()>& work);
 

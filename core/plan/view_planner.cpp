@@ -234,6 +234,9 @@ class Greedy {
         bounds_(views.size(), std::numeric_limits<std::int64_t>::max()),
         best_(points, 0) {}
 
+  /// Leaves a view out from now on: bounds only fall.
+  void exclude(std::size_t view) { bounds_[view] = 0; }
+
   /// The view of the greatest worth, or views.size() if none is worth anything.
   [[nodiscard]] std::size_t pick(const Worth& worth) {
     std::vector<std::size_t> order(views_.size());
@@ -249,6 +252,23 @@ class Greedy {
         greatest = bounds_[view];
         picked = view;
       }
+    }
+    return picked;
+  }
+
+  /// The first view: of those that are worth nearly the most the one from farthest above, since an
+  /// open sheet such as a terrain looks alike from both sides and is meant to face up (z).
+  [[nodiscard]] std::size_t pick_first(const Worth& worth, std::span<const Vec3> directions) {
+    constexpr std::int64_t kNearlyMostPercent = 95;
+    std::int64_t greatest = 0;
+    for (std::size_t view = 0; view < views_.size(); ++view) {
+      bounds_[view] = worth_of(views_[view], best_, worth);
+      greatest = std::max(greatest, bounds_[view]);
+    }
+    std::size_t picked = views_.size();
+    for (std::size_t view = 0; view < views_.size() && greatest > 0; ++view) {
+      if (100 * bounds_[view] < kNearlyMostPercent * greatest) continue;
+      if (picked == views_.size() || directions[view].z > directions[picked].z) picked = view;
     }
     return picked;
   }
@@ -284,6 +304,12 @@ double reachable_share(const std::vector<std::vector<Quality>>& views, std::size
   return 1.0 - static_cast<double>(unseen) / static_cast<double>(points);
 }
 
+void exclude_other_side(Greedy& greedy, std::span<const Vec3> directions, const Vec3& first) {
+  for (std::size_t view = 0; view < directions.size(); ++view) {
+    if (!(glm::dot(directions[view], first) > 0.0)) greedy.exclude(view);
+  }
+}
+
 }  // namespace
 
 ViewPlan plan_views(Rasterizer& rasterizer, std::span<const Vec3> points, double pixel_size,
@@ -305,7 +331,8 @@ ViewPlan plan_views(Rasterizer& rasterizer, std::span<const Vec3> points, double
   while (plan.directions.size() < static_cast<std::size_t>(options.max_views) &&
          static_cast<double>(seen) < wanted) {
     progress.check_stop();
-    const std::size_t view = greedy.pick(worth);
+    const std::size_t view =
+        plan.directions.empty() ? greedy.pick_first(worth, directions) : greedy.pick(worth);
     if (view == directions.size()) break;
     const std::size_t newly_seen = greedy.newly_seen(view);
     if (plan.directions.size() >= kViewsForQuality && static_cast<double>(newly_seen) < min_new) {
@@ -315,6 +342,9 @@ ViewPlan plan_views(Rasterizer& rasterizer, std::span<const Vec3> points, double
     }
     seen += newly_seen;
     greedy.take(view);
+    if (options.one_sided && plan.directions.empty()) {
+      exclude_other_side(greedy, directions, directions[view]);
+    }
     plan.directions.push_back(directions[view]);
     plan.coverage.push_back(static_cast<double>(seen) / static_cast<double>(count));
   }

@@ -18,6 +18,8 @@ struct ViewPlanOptions {
                                     ///< degrees)
   double coverage = 0.999;          ///< stop when this share of the points is seen
   double min_gain = 0.0005;  ///< stop when a view adds less than this share (after six views)
+  bool one_sided = false;    ///< only views less than 90 degrees from the first one: an open
+                             ///< sheet is scanned from one side
 };
 
 /// Directions toward the viewer, best first, and what they reach.

@@ -9,6 +9,7 @@
 #include "core/base/parallel.h"
 #include "core/finish/self_intersection.h"
 #include "core/mesh/coverage.h"
+#include "core/plan/open_sheet.h"
 #include "core/plan/spacing.h"
 #include "core/plan/view_planner.h"
 #include "core/reconstruct/resolution.h"
@@ -105,6 +106,10 @@ class Run {
     result_.commands.push_back(std::move(command));
   }
 
+  [[nodiscard]] std::span<const Vec3> scene_points() const {
+    return std::span(samples_).first(scene_.point_count());
+  }
+
   void choose_resolution_and_views() {
     progress_.at("resolution", 0.0);
     samples_ = scene_.points();
@@ -119,10 +124,11 @@ class Run {
                .pixel_size = resolution.pixel_size,
                .point_size = resolution.point_size,
                .has_points = scene_.point_count() > 0};
+    if (recipe_.has_points) recipe_.one_sided = is_open_sheet(rasterizer_, scene_points());
     result_.report.pixel_size = recipe_.pixel_size;
     clock_.finish("resolution");
 
-    ViewPlanOptions plan_options;
+    ViewPlanOptions plan_options{.one_sided = recipe_.one_sided};
     if (options_.views) plan_options.max_views = *options_.views;
     const ViewPlan plan = plan_views(rasterizer_, samples_, recipe_.pixel_size, plan_options,
                                      part_of(progress_, "plan views", kPlanShare, kScanShare));
@@ -149,6 +155,7 @@ class Run {
           plan_fill_views(*session_.mesh(), kMinFillLoop * recipe_.pixel_size, kFillViewsPerRound);
       if (directions.empty()) break;
       for (const Vec3& direction : directions) {
+        if (recipe_.one_sided && !(glm::dot(direction, result_.report.views[0]) > 0.0)) continue;
         const auto view = static_cast<std::uint32_t>(result_.report.views.size());
         apply(fill_scan(recipe_, direction, view),
               part_of(progress_, "fill views", kFillShare, kFinishShare));

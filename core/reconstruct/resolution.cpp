@@ -22,6 +22,26 @@ double pixel_size_for(double area, std::size_t triangles) {
   return std::sqrt(kTrianglesPerPixelArea * area / static_cast<double>(triangles));
 }
 
+/// The pixel side for a cloud. Coarse pixels hold enough points to average noise away; a sparse
+/// cloud would lose its shape in them, so its pixels shrink toward the size that shows the object,
+/// as far as its points still cover them.
+double pixel_size_for_cloud(const Spacing& spacing, const Box& bounds) {
+  constexpr double kFinestShare = 1.3 / 2.2;  // of the coarse size: 1.3 spacings
+  constexpr double kEnoughForShape = 0.004;   // of the diagonal
+  constexpr double kPixelsPerNoise = 4.0;     // a step of one pixel is then rarely noise
+  const double coarse = pixel_size_from_spacing(spacing);
+  const double fine = std::max(kFinestShare * coarse, kPixelsPerNoise * spacing.noise);
+  return std::clamp(kEnoughForShape * bounds.diagonal(), std::min(fine, coarse), coarse);
+}
+
+/// Points must be drawn larger where the pixel is so fine that one in four would stay empty.
+int point_size_for(const Spacing& spacing, double pixel_size) {
+  constexpr double kPixelPerSpacing = 1.2;
+  constexpr double kLargest = 15.0;
+  return static_cast<int>(
+      std::clamp(std::ceil(kPixelPerSpacing * spacing.median / pixel_size), 1.0, kLargest));
+}
+
 /// The finest pixel at which an image of the box fits into the rasterizer from any direction.
 double finest_pixel_size(const Box& bounds) {
   return bounds.diagonal() / static_cast<double>(kMaxRasterExtent - kImageMargin);
@@ -53,20 +73,14 @@ Resolution choose_resolution(const Scene& scene, std::span<const Vec3> samples,
                    : triangle_area(scene);
     chosen.pixel_size = pixel_size_for(area, *triangles);
   } else if (has_points) {
-    chosen.pixel_size = pixel_size_from_spacing(*spacing);
+    chosen.pixel_size = pixel_size_for_cloud(*spacing, chosen.bounds);
   } else {
     chosen.pixel_size = pixel_size_for(triangle_area(scene), kTrianglesOfPolygons);
   }
   if (!pixel_size)
     chosen.pixel_size = std::max(chosen.pixel_size, finest_pixel_size(chosen.bounds));
 
-  if (has_points) {
-    // A cloud covers its pixels as long as the pixel is about 1.3 spacings wide; finer pixels need
-    // larger points to keep the sheet closed [Kobbelt, Botsch 2000, 4.1].
-    constexpr double kSpacingsPerPoint = 1.3;
-    const double wanted = std::ceil(kSpacingsPerPoint * spacing->median / chosen.pixel_size);
-    chosen.point_size = static_cast<int>(std::clamp(wanted, 1.0, 15.0));
-  }
+  if (has_points) chosen.point_size = point_size_for(*spacing, chosen.pixel_size);
   return chosen;
 }
 

@@ -26,7 +26,7 @@ AddScan automatic_scan(const ScanRecipe& recipe, const Vec3& toward_viewer, std:
     command.scan.see_through = SeeThroughOptions{};
     command.scan.plane_fit = PlaneFitOptions{};
     command.scan.fill_holes = FillHolesOptions{};
-    command.vote = VoteOptions{.pixel_size = recipe.pixel_size};
+    if (!recipe.one_sided) command.vote = VoteOptions{.pixel_size = recipe.pixel_size};
   }
   command.stitch.method = StitchMethod::clear_and_fill;
   return command;

@@ -14,8 +14,9 @@ struct ScanRecipe {
   Box bounds;               ///< what the image must show, model units
   double pixel_size = 0.0;  ///< model units
   int point_size = 1;       ///< pixels
-  bool has_points =
-      true;  ///< false: polygons only; passes against gaps between points are left out
+  bool has_points = true;   ///< false: polygons only, no passes against gaps between points
+  bool one_sided = false;   ///< an open sheet, seen from the side of the first view; else a
+                            ///< visibility vote tells outsides from insides
 };
 
 /// The command that scans along -`toward_viewer` and stitches what is better or new.
