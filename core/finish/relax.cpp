@@ -1,5 +1,6 @@
 #include "core/finish/relax.h"
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -19,12 +20,13 @@ constexpr double kFlipGain = 0.05;       // smaller gains would flip to and fro
 constexpr double kFlipMinCosine = 0.5;   // between and against the old faces
 constexpr double kFlipMaxSharper = 0.1;  // a flip may not make an edge much sharper
 constexpr double kRelaxStep = 0.5;
-constexpr double kMaxTurn = 0.5;  // 60 degrees
-constexpr double kSliver = 0.1;   // a face with less than this has no direction to keep
-constexpr double kFitRadius = 1.3;
-constexpr double kFitHeight = 0.7;  // points farther from the tangent plane: another sheet
-constexpr double kMaxProjection = 0.7;
-constexpr int kMinFitPoints = 8;
+constexpr double kMaxTurn = 0.5;           // 60 degrees
+constexpr double kSliver = 0.1;            // a face with less than this has no direction to keep
+constexpr std::array kFitRadii{1.3, 2.1};  // the wider where the cloud is sparse
+constexpr double kFitHeightShare = 0.54;   // of the radius; points farther from the tangent plane
+                                           // belong to another sheet
+constexpr double kMaxProjectionShare = 0.54;  // of the radius
+constexpr int kMinFitPoints = 10;
 constexpr double kFitMinCosine = 0.6;     // between the fitted plane and the mesh
 constexpr double kFitMaxThickness = 0.2;  // of the width: else the points are no plane
 constexpr std::size_t kVerticesPerBlock = 1024;
@@ -149,23 +151,32 @@ class Relaxer {
 
   /// Onto the local plane of the cloud, if its points there are one.
   [[nodiscard]] Vec3 projected(const Vec3& p, const Vec3& normal) const {
+    for (const double share : kFitRadii) {
+      const double radius = share * h_;
+      const PlaneSums sums = sums_around(p, normal, radius);
+      if (sums.count() < kMinFitPoints) continue;
+      const LocalPlane plane = sums.plane();
+      if (std::abs(glm::dot(plane.normal, normal)) < kFitMinCosine) return p;
+      if (plane.thickness > kFitMaxThickness * plane.width) return p;
+      const double distance = glm::dot(plane.center, plane.normal);
+      if (std::abs(distance) > kMaxProjectionShare * radius) return p;
+      return p + distance * plane.normal;
+    }
+    return p;
+  }
+
+  /// The points of the sheet around p, about p.
+  [[nodiscard]] PlaneSums sums_around(const Vec3& p, const Vec3& normal, double radius) const {
     PlaneSums sums;
-    const double radius = kFitRadius * h_;
     const double per_radius2 = 1.0 / (radius * radius);
-    const double height = kFitHeight * h_;
+    const double height = kFitHeightShare * radius;
     cloud_.for_each_near(p, radius, [&](const Vec3& d) {
       const double nearness = 1.0 - glm::dot(d, d) * per_radius2;
       if (nearness <= 0.0 || std::abs(glm::dot(d, normal)) > height) return;
       const double squared = nearness * nearness;
-      sums.add(d, squared * squared);  // nearly a Gaussian of 0.45 h, but exact and compact
+      sums.add(d, squared * squared);  // nearly a Gaussian of a third of the radius, but compact
     });
-    if (sums.count() < kMinFitPoints) return p;
-    const LocalPlane plane = sums.plane();
-    if (std::abs(glm::dot(plane.normal, normal)) < kFitMinCosine) return p;
-    if (plane.thickness > kFitMaxThickness * plane.width) return p;
-    const double distance = glm::dot(plane.center, plane.normal);
-    if (std::abs(distance) > kMaxProjection * h_) return p;
-    return p + distance * plane.normal;
+    return sums;
   }
 
   [[nodiscard]] bool turns_no_face(std::uint32_t v, const Vec3& target) const {

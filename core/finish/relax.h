@@ -21,10 +21,10 @@ struct RelaxReport {
 /// Evens out triangles without leaving the cloud. Each round collapses edges shorter than h/2,
 /// flips edges where the smallest angle grows, moves each inner vertex half-way to the middle of
 /// its neighbours within its tangent plane, and then onto the plane through the points of the cloud
-/// within 1.3 h, by at most 0.7 h. Nothing is done that turns a face by more than 60 degrees. The
-/// topology and the boundary stay; unused vertices remain. May leave self-intersections where
-/// sheets are close together.
-/// Cost: linear; points and vertices are visited in parallel.
+/// within 1.3 h (2.1 h where those are few), by at most about half that. Nothing is done that turns
+/// a face by more than 60 degrees. The topology and the boundary stay; unused vertices remain. May
+/// leave self-intersections where sheets are close together. Cost: linear; points and vertices are
+/// visited in parallel.
 /// @param cloud without points nothing is projected
 /// @pre oriented, manifold (core/finish/clean_topology.h)
 RelaxReport relax(TriangleMesh& mesh, const PointGrid& cloud, const RelaxOptions& options,

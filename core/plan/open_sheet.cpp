@@ -18,7 +18,7 @@ bool is_open_sheet(Rasterizer& rasterizer, std::span<const Vec3> points, const P
   for (const std::size_t index : spread_indices(points.size(), kSubset)) {
     subset.push_back(points[index]);
   }
-  const double pixel_size = pixel_size_from_spacing(estimate_spacing(subset));
+  const double pixel_size = closed_sheet_pixel_size(estimate_spacing(subset));
 
   const Vec3 origin = robust_bounds(subset).center();
   PointCloud cloud;

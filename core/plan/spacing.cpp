@@ -224,8 +224,8 @@ double closed_sheet_pixel_size(const Spacing& spacing) {
 }
 
 double pixel_size_from_spacing(const Spacing& spacing) {
-  constexpr double kFewestPerSpacing = 1.4;  // two points in a pixel
-  constexpr double kPixelsAcross = 150.0;
+  constexpr double kFewestPerSpacing = 1.3;  // one pixel in five stays empty, and is filled
+  constexpr double kPixelsAcross = 250.0;
   const double finest = std::max(kFewestPerSpacing * 0.5 * (spacing.median + spacing.quantile75),
                                  kPixelsPerNoise * spacing.noise);
   return std::min(closed_sheet_pixel_size(spacing),

@@ -30,8 +30,8 @@ struct Spacing {
 /// spacing, at least 4 noise.
 [[nodiscard]] double closed_sheet_pixel_size(const Spacing& spacing);
 
-/// The pixel side for the scans of a cloud: that of the closed sheet, but down to 1.4 spacings
-/// where the cloud is so sparse that fewer than 150 pixels would lie across it; shape is worth more
+/// The pixel side for the scans of a cloud: that of the closed sheet, but down to 1.3 spacings
+/// where the cloud is so sparse that fewer than 250 pixels would lie across it; shape is worth more
 /// then than closed pixels.
 [[nodiscard]] double pixel_size_from_spacing(const Spacing& spacing);
 

@@ -22,18 +22,6 @@ double pixel_size_for(double area, std::size_t triangles) {
   return std::sqrt(kTrianglesPerPixelArea * area / static_cast<double>(triangles));
 }
 
-/// The pixel side for a cloud. Coarse pixels hold enough points to average noise away; a sparse
-/// cloud would lose its shape in them, so its pixels shrink toward the size that shows the object,
-/// as far as its points still cover them.
-double pixel_size_for_cloud(const Spacing& spacing, const Box& bounds) {
-  constexpr double kFinestShare = 1.3 / 2.2;  // of the coarse size: 1.3 spacings
-  constexpr double kEnoughForShape = 0.004;   // of the diagonal
-  constexpr double kPixelsPerNoise = 4.0;     // a step of one pixel is then rarely noise
-  const double coarse = pixel_size_from_spacing(spacing);
-  const double fine = std::max(kFinestShare * coarse, kPixelsPerNoise * spacing.noise);
-  return std::clamp(kEnoughForShape * bounds.diagonal(), std::min(fine, coarse), coarse);
-}
-
 /// Points must be drawn larger where the pixel is so fine that one in four would stay empty.
 int point_size_for(const Spacing& spacing, double pixel_size) {
   constexpr double kPixelPerSpacing = 1.2;
@@ -73,7 +61,7 @@ Resolution choose_resolution(const Scene& scene, std::span<const Vec3> samples,
                    : triangle_area(scene);
     chosen.pixel_size = pixel_size_for(area, *triangles);
   } else if (has_points) {
-    chosen.pixel_size = pixel_size_for_cloud(*spacing, chosen.bounds);
+    chosen.pixel_size = pixel_size_from_spacing(*spacing);
   } else {
     chosen.pixel_size = pixel_size_for(triangle_area(scene), kTrianglesOfPolygons);
   }

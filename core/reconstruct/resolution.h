@@ -17,9 +17,8 @@ struct Resolution {
 };
 
 /// Chooses the pixel side: as given; else so that the surface gets about `triangles`; else from the
-/// point spacing (2.2 spacings, down to 1.3 for sparse clouds whose pixels would be larger than 0.4
-/// % of the diagonal; at least 4 times the noise), or for polygons only so that they get about 100
-/// K triangles. Never so fine that an image outgrows the rasterizer.
+/// point spacing (pixel_size_from_spacing()), or for polygons only so that they get about 100 K
+/// triangles. Never so fine that an image outgrows the rasterizer.
 /// @param samples the points of the scene, in its order, then area samples of its polygons
 /// @throws InvalidArgument for a pixel side or a target that is not positive.
 [[nodiscard]] Resolution choose_resolution(const Scene& scene, std::span<const Vec3> samples,

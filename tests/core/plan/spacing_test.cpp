@@ -94,8 +94,8 @@ TEST_CASE(
   };
   const double mean = 1.25;
   CHECK(size(1000.0, 0.0) == Approx(2.2 * mean));
-  CHECK(size(150.0 * 2.0 * mean, 0.0) == Approx(2.0 * mean));  // 150 pixels across
-  CHECK(size(10.0, 0.0) == Approx(1.4 * mean));
+  CHECK(size(250.0 * 2.0 * mean, 0.0) == Approx(2.0 * mean));  // 250 pixels across
+  CHECK(size(10.0, 0.0) == Approx(1.3 * mean));
   CHECK(size(1000.0, 2.0) == 8.0);  // four times the noise, dense or sparse
   CHECK(size(10.0, 2.0) == 8.0);
   CHECK(closed_sheet_pixel_size({.median = 1.0, .quantile75 = 1.5, .diagonal = 10.0}) ==
