@@ -4,6 +4,7 @@
 
 #include "apps/rangezip/backend.h"
 #include "apps/rangezip/commands.h"
+#include "apps/rangezip/exit_code.h"
 #include "apps/rangezip/outputs.h"
 #include "apps/rangezip/values.h"
 #include "core/base/parallel.h"
@@ -21,6 +22,7 @@ struct RenderOptions {
   std::filesystem::path output;
   Vec3 direction{0.3, 0.25, 1.0};
   std::optional<Vec3> up;
+  std::optional<Vec3> zoom;  // where in the picture, and how much
   bool only_points = false;
   PictureOptions picture;
   CommonOptions common;
@@ -60,6 +62,17 @@ PictureContent read_content(const RenderOptions& options, const Progress& progre
   return content;
 }
 
+/// Enlarges what is seen around a place of the picture, given as shares of its width and height.
+void zoom_in(Camera& camera, const Vec3& zoom, Extent extent) {
+  const double factor = zoom.z;
+  if (!(factor >= 1.0)) throw UsageError("--zoom: the factor must be at least 1");
+  auto& lens = std::get<Orthographic>(camera.lens);
+  const double width = lens.height * extent.width / extent.height;
+  camera.eye_from_world[3].x -= (zoom.x - 0.5) * width;
+  camera.eye_from_world[3].y -= (zoom.y - 0.5) * lens.height;
+  lens.height /= factor;
+}
+
 void render(const RenderOptions& options, const Context& context) {
   const auto rasterizer = make_rasterizer(options.common.backend);
   Outputs outputs;
@@ -69,8 +82,8 @@ void render(const RenderOptions& options, const Context& context) {
   progress.report = nullptr;  // over before a bar could be read
 
   const PictureContent content = read_content(options, progress);
-  const Camera camera =
-      frame_picture(content, options.direction, options.picture.extent, options.up);
+  Camera camera = frame_picture(content, options.direction, options.picture.extent, options.up);
+  if (options.zoom) zoom_in(camera, *options.zoom, options.picture.extent);
   const Picture picture = draw_picture(*rasterizer, content, camera, options.picture);
   progress.check_stop();
   write_output([&] { write_rgb_png(options.output, picture); });
@@ -93,6 +106,10 @@ void add_render_command(CLI::App& app, Action& action) {
              "What points upwards in the picture [y, or x if looking along y]", "X,Y,Z");
   add_parsed(command, "--size", options->picture.extent, parse_extent, "In pixels [1200,900]",
              "W,H");
+  add_parsed(command, "--zoom", options->zoom, parse_vector,
+             "Show the surroundings of a place of the picture, F times larger: its shares of width "
+             "and height, from the lower left (0.5,0.5,1: all)",
+             "U,V,F");
   command.add_flag("--edges", options->picture.edges, "Draw the edges of all faces");
   command.add_flag("--boundary", options->picture.boundary,
                    "Mark edges that belong to one face only, in red");
