@@ -46,7 +46,7 @@ row() {
     "| $(field mesh boundary_loops "$json") | $(field mesh euler "$json")" \
     "| $(field mesh nonmanifold_edges "$json") / $(field mesh self_intersections "$json")" \
     "| $(percent "$(field accuracy mean "$json")") / $(percent "$(field accuracy p95 "$json")")" \
-    "| $(field cloud within_0.5_percent "$json") |"
+    "| $(percent "$(field cloud within_0.5_percent "$json")") |"
 }
 
 # sampled NAME MESH POINTS: a row for a cloud sampled from a mesh.
@@ -56,7 +56,8 @@ sampled() {
 }
 
 echo "| input | cpu | peak | triangles | components | boundary loops | Euler number" \
-  "| non-manifold edges / self-intersections | mesh to truth, mean / p95 in % | cloud within 0.5 % |"
+  "| non-manifold edges / self-intersections | mesh to truth, mean / p95 in %" \
+  "| % of the cloud within 0.5 % |"
 echo "|---|---|---|---|---|---|---|---|---|---|"
 row bunny "$data/range/bunny/bun.conf" - "$data/range/bunny/bun.conf"
 row dragon_stand "$data/range/dragon_stand_merged.ply" - "$data/range/dragon_stand_merged.ply"

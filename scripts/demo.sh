@@ -26,9 +26,8 @@ compare=build/release/apps/rangezip-compare/rangezip-compare
 fetch_scan() {
   local unpacked
   unpacked=$(mktemp -d)
-  chmod 755 "$unpacked" # apt downloads as a user of its own
   trap 'rm -rf "$unpacked"' RETURN
-  (cd "$unpacked" && apt-get download -qq libcgal-demo)
+  (cd "$unpacked" && apt-get download -qq -o APT::Sandbox::User=root libcgal-demo)
   dpkg-deb -x "$unpacked"/libcgal-demo_*.deb "$unpacked"
   tar -xzf "$unpacked"/usr/share/doc/libcgal-dev/data.tar.gz -C "$unpacked" \
     data/meshes/bunny00.off
