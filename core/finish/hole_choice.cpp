@@ -24,7 +24,9 @@ constexpr double kMinOutline = 30.0;
 /// round one is wider than 0.3 of its perimeter.
 constexpr double kLargeWidth = 0.25;
 /// Area over squared perimeter, 1 for a circle: below, the plane across a loop means little.
-constexpr double kRound = 0.6;
+constexpr double kRound = 0.4;
+/// In h: a shorter loop is too ragged to be told from the end of a tube.
+constexpr double kMinRim = 20.0;
 /// In h: inside of a fill is what lies farther from the loop than this, the reach of what was
 /// scanned beside it; evidence is a point nearer to it than kEvidenceRadius.
 constexpr double kInsideMargin = 1.5;
@@ -67,6 +69,7 @@ bool is_rim(const LoopGeometry& loop, double pixel_size) {
   const double area = glm::length(loop.across);
   const double leads_into = glm::dot(loop.across, loop.beside);
   if (loop.perimeter > kMinOutline * pixel_size && leads_into < kFoldsBack * area) return true;
+  if (loop.perimeter < kMinRim * pixel_size) return false;
   if (area * kFourPi < kRound * loop.perimeter * loop.perimeter) return false;
   return leads_into < kLeadsInto * area;
 }

@@ -19,7 +19,8 @@ struct HoleChoiceOptions {
 /// an open surface, which stays (no value):
 /// - a small loop (up to 12 h) is closed;
 /// - a loop with points of the cloud inside is closed whatever its size;
-/// - a round rim where the surface ends without leading into the hole, as at the end of a tube, and
+/// - a round rim (longer than 20 h) where the surface ends without leading into the hole, as at the
+/// end of a tube, and
 ///   the outline of a sheet stay;
 /// - a crack, nowhere wider than narrow_width, is closed whatever its length;
 /// - others are first zipped where their sides are close, since cracks often open into a border;
