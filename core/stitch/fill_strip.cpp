@@ -103,8 +103,10 @@ class Judge {
 
   /// Whether the triangle lies outside of the patch and close to it. Local corner numbers.
   [[nodiscard]] bool is_in_strip(const Triangle& t) const {
-    const Vec2 middle = centroid(t);
-    return !seam_.sheet.covers(middle) && sheet_near(middle).ring < seam_.sheet.radius();
+    const GridPoint middle = centroid(t);
+    if (seam_.sheet.covers(in_pixels(middle))) return false;
+    return sheet_near(middle).ring < seam_.sheet.radius() ||
+           seam_.removed.longest_side_at(middle) > 0.0;
   }
 
   [[nodiscard]] bool is_acceptable(const Triangle& t) const {
@@ -119,15 +121,25 @@ class Judge {
     return local_.vertices[local] < seam_.first_new;
   }
 
-  [[nodiscard]] Vec2 centroid(const Triangle& t) const {
-    return (in_pixels(local_.points[t[0]]) + in_pixels(local_.points[t[1]]) +
-            in_pixels(local_.points[t[2]])) /
-           3.0;
+  [[nodiscard]] GridPoint centroid(const Triangle& t) const {
+    const GridPoint& a = local_.points[t[0]];
+    const GridPoint& b = local_.points[t[1]];
+    const GridPoint& c = local_.points[t[2]];
+    return {(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3};
   }
 
-  [[nodiscard]] const SheetSample& sheet_near(const Vec2& place) const {
-    return seam_.sheet[{static_cast<int>(std::floor(place.x + 0.5)),
-                        static_cast<int>(std::floor(place.y + 0.5))}];
+  [[nodiscard]] const SheetSample& sheet_near(const GridPoint& place) const {
+    return seam_.sheet[nearest_pixel(place)];
+  }
+
+  /// Longest edge that the triangle may have in the image.
+  [[nodiscard]] double longest_allowed(const Triangle& t) const {
+    const bool is_notch = std::none_of(t.begin(), t.end(), [&](auto v) { return is_old(v); });
+    const double wide = seam_.removed.longest_side_at(centroid(t));
+    // The way from the patch across a removed face is as long as the face, and a bit more where
+    // the clearance has taken the next one as well: as much as between equal resolutions.
+    const double scale = std::max(1.0, wide / kWideFace);
+    return options_.max_gap * scale * (is_notch && wide == 0.0 ? kNotchShare : 1.0);
   }
 
   [[nodiscard]] bool is_short_enough(const Triangle& t) const {
@@ -139,11 +151,11 @@ class Judge {
       in_image = std::max(in_image, glm::dot(flat, flat));
       in_space = std::max(in_space, glm::dot(edge, edge));
     }
-    const bool is_notch = std::none_of(t.begin(), t.end(), [&](auto v) { return is_old(v); });
-    const double pixels = options_.max_gap * (is_notch ? kNotchShare : 1.0);
-    const SheetSample& sheet = sheet_near(centroid(t));
-    const double side = seam_.sheet.image().view().pixel_size(sheet.depth);
-    const double length = pixels * side * std::min(kMaxTilt, sheet.stretch);
+    const double pixels = longest_allowed(t);
+    const double depth = seam_.image.depths[local_.vertices[t[0]]];
+    const double side = seam_.sheet.image().view().pixel_size(depth);
+    const double tilt = std::min(kMaxTilt, sheet_near(centroid(t)).stretch);
+    const double length = pixels * side * tilt;
     return in_image <= pixels * pixels && in_space <= length * length;
   }
 

@@ -10,6 +10,7 @@
 #include "core/stitch/image_plane.h"
 #include "core/stitch/patch_sheet.h"
 #include "core/stitch/seam_segments.h"
+#include "core/stitch/wide_faces.h"
 
 namespace rangezip {
 
@@ -28,6 +29,7 @@ struct Seam {
   std::span<const Vec3> positions;
   const ImagePlane& image;
   const PatchSheet& sheet;
+  const WideFaces& removed;
   std::uint32_t first_new = 0;
   std::span<const SeamSegment> segments;  ///< of both boundaries, without conflicts
   std::span<const Triangle> old_faces;    ///< at least those around ends of segments
@@ -36,7 +38,8 @@ struct Seam {
 /// Fills the strip between the patch and the old surface: the triangles of the constrained
 /// Delaunay triangulation of the segments in the image that lie outside of the patch, near it, are
 /// not too long in the image or in space, nor too steep, overlap no old face around their
-/// corners, and whose directed edges are free.
+/// corners, and whose directed edges are free. In the place of a removed wide face triangles may be
+/// far and as long as that was.
 /// @param edges of the surface near the seam; receives the edges of the new faces, numbered as
 ///     they are in the result from `first_face` on
 [[nodiscard]] FilledStrip fill_strip(const Seam& seam, EdgeMap& edges, std::uint32_t first_face,

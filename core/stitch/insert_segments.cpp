@@ -1,7 +1,6 @@
 #include "core/stitch/insert_segments.h"
 
 #include <deque>
-#include <optional>
 
 namespace rangezip {
 
@@ -35,8 +34,16 @@ class SegmentInserter {
     return !sheet_.mesh.is_boundary(e) && sheet_.area(sheet_.mesh.face_handle(e)) > 0;
   }
 
-  [[nodiscard]] HalfedgeHandle first_crossed() const;
-  [[nodiscard]] std::optional<std::deque<EdgeHandle>> crossed_edges() const;
+  /// The edges that a segment crosses, in order, up to its end or a vertex on its line.
+  struct Trace {
+    std::deque<EdgeHandle> crossed;
+    VertexHandle on_line = VertexHandle();
+    bool has_arrived = false;
+  };
+  [[nodiscard]] HalfedgeHandle first_crossed(Trace& trace) const;
+  [[nodiscard]] Trace trace() const;
+  bool move_aside(VertexHandle v);
+  bool flip_out(std::deque<EdgeHandle> crossed);
   [[nodiscard]] bool can_flip(EdgeHandle edge) const;
   [[nodiscard]] bool is_crossed(EdgeHandle edge) const;
 
@@ -47,33 +54,55 @@ class SegmentInserter {
 
 /// The edge opposite to the start in the face through which the segment leaves it; invalid if
 /// there is none.
-HalfedgeHandle SegmentInserter::first_crossed() const {
+HalfedgeHandle SegmentInserter::first_crossed(Trace& trace) const {
   for (const HalfedgeHandle e : sheet_.mesh.voh_range(start_)) {
+    const VertexHandle right = sheet_.mesh.to_vertex_handle(e);
+    const bool is_ahead = dot_at(sheet_.point(start_), sheet_.point(right), sheet_.point(end_)) > 0;
+    if (side(right) == 0 && is_ahead) trace.on_line = right;
     if (!looks_at_viewer(e)) continue;
-    if (side(sheet_.mesh.to_vertex_handle(e)) < 0 && side(apex(e)) > 0) {
-      return sheet_.mesh.next_halfedge_handle(e);
-    }
+    if (side(right) < 0 && side(apex(e)) > 0) return sheet_.mesh.next_halfedge_handle(e);
   }
   return HalfedgeHandle();
 }
 
-/// The edges that the segment crosses, in order; nothing if it leaves the sheet or meets a vertex
-/// before its end.
-std::optional<std::deque<EdgeHandle>> SegmentInserter::crossed_edges() const {
-  std::deque<EdgeHandle> crossed;
-  HalfedgeHandle e = first_crossed();
-  if (!e.is_valid()) return std::nullopt;
-  for (;;) {
-    crossed.push_back(sheet_.mesh.edge_handle(e));
+SegmentInserter::Trace SegmentInserter::trace() const {
+  Trace trace;
+  HalfedgeHandle e = first_crossed(trace);
+  while (e.is_valid() && trace.crossed.size() <= kMaxTurns) {
+    trace.crossed.push_back(sheet_.mesh.edge_handle(e));
     const HalfedgeHandle across = sheet_.mesh.opposite_halfedge_handle(e);
-    if (!looks_at_viewer(across)) return std::nullopt;
+    if (!looks_at_viewer(across)) break;
     const VertexHandle ahead = apex(across);
-    if (ahead == end_) return crossed;
     const std::int64_t where = side(ahead);
-    if (where == 0 || crossed.size() > kMaxTurns) return std::nullopt;
+    trace.has_arrived = ahead == end_;
+    if (where == 0 && !trace.has_arrived) trace.on_line = ahead;
+    if (where == 0) break;
     e = sheet_.mesh.next_halfedge_handle(across);
     if (where < 0) e = sheet_.mesh.next_halfedge_handle(e);
   }
+  return trace;
+}
+
+/// Moves the image of an old vertex by the smallest step to the left of the segment, where the
+/// patch is and will cover it; false, and nothing is moved, if a face would turn over.
+bool SegmentInserter::move_aside(VertexHandle v) {
+  const GridPoint a = sheet_.point(start_);
+  const GridPoint b = sheet_.point(end_);
+  const auto sign = [](std::int64_t x) { return std::int64_t{x > 0} - std::int64_t{x < 0}; };
+  std::vector<std::int64_t> areas;
+  for (const auto face : sheet_.mesh.vf_range(v))
+    areas.push_back(sheet_.area(face));
+  GridPoint& point = sheet_.points[static_cast<std::size_t>(v.idx())];
+  const GridPoint before = point;
+  point = {point.x - sign(b.y - a.y), point.y + sign(b.x - a.x)};
+  std::size_t i = 0;
+  for (const auto face : sheet_.mesh.vf_range(v)) {
+    if (areas[i++] > 0 && sheet_.area(face) <= 0) {
+      point = before;
+      return false;
+    }
+  }
+  return true;
 }
 
 /// Whether the two faces are a strictly convex quadrilateral in the image and a flip is legal.
@@ -96,23 +125,30 @@ bool SegmentInserter::is_crossed(EdgeHandle edge) const {
   return (side(a) > 0) != (side(b) > 0);
 }
 
-bool SegmentInserter::insert() {
-  if (sheet_.mesh.find_halfedge(start_, end_).is_valid()) return true;
-  std::optional<std::deque<EdgeHandle>> queue = crossed_edges();
-  if (!queue) return false;
-  for (std::size_t turn = 0; !queue->empty(); ++turn) {
+bool SegmentInserter::flip_out(std::deque<EdgeHandle> crossed) {
+  for (std::size_t turn = 0; !crossed.empty(); ++turn) {
     if (turn > kMaxTurns) return false;
-    const EdgeHandle edge = queue->front();
-    queue->pop_front();
+    const EdgeHandle edge = crossed.front();
+    crossed.pop_front();
     if (!can_flip(edge)) {
-      queue->push_back(edge);
+      crossed.push_back(edge);
       continue;
     }
     sheet_.mesh.flip(edge);
     ++flips_;
-    if (is_crossed(edge)) queue->push_back(edge);
+    if (is_crossed(edge)) crossed.push_back(edge);
   }
   return sheet_.mesh.find_halfedge(start_, end_).is_valid();
+}
+
+bool SegmentInserter::insert() {
+  for (;;) {
+    if (sheet_.mesh.find_halfedge(start_, end_).is_valid()) return true;
+    Trace found = trace();
+    if (found.has_arrived) return flip_out(std::move(found.crossed));
+    // Each vertex leaves the line once, so this ends.
+    if (!found.on_line.is_valid() || !move_aside(found.on_line)) return false;
+  }
 }
 
 }  // namespace

@@ -11,14 +11,16 @@ namespace rangezip {
 
 struct InsertedSegments {
   std::size_t inserted = 0;  ///< edges of the sheet now, found or made
-  std::size_t skipped = 0;   ///< that leave the sheet, or pass exactly over a vertex
+  std::size_t skipped = 0;   ///< that leave the sheet
   std::size_t flips = 0;
 };
 
 /// Second step of zippering: every segment between two vertices of the sheet becomes an edge of it,
 /// by flipping the edges that its straight line in the image crosses [Sloan 1993]. The straight
 /// line stands for the geodesic of the paper [Kobbelt, Botsch 2000, 4.4]. A segment whose line
-/// leaves the faces that look at the viewer is skipped and nothing is changed for it.
+/// leaves the faces that look at the viewer is skipped. An old vertex exactly on the line has its
+/// image moved by one grid step, to the left of the segment: the side of the patch.
+/// @param segments directed, the patch on their left; they touch in common ends only
 [[nodiscard]] InsertedSegments insert_boundary_segments(
     SheetMesh& sheet, std::span<const std::array<SheetMesh::VertexHandle, 2>> segments);
 

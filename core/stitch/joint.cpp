@@ -43,6 +43,7 @@ class SeamEdges {
   void enter_patch_edges();
   void find_open_patch_edges();
   void find_open_old_edges();
+  void find_outline_of_removed_faces();
 
   template <class Body>
   void for_each_near_old_edge(const Body& body) const {
@@ -134,15 +135,38 @@ void SeamEdges::find_open_old_edges() {
   });
 }
 
+/// Where a removed wide face was the end of the old surface, its own edge bounds what may be
+/// filled.
+void SeamEdges::find_outline_of_removed_faces() {
+  EdgeMap removed(3 * joint_.removed_wide_faces.size());
+  const auto for_each_edge = [&](const auto& body) {
+    for (const Triangle& face : joint_.removed_wide_faces) {
+      for (std::size_t k = 0; k < 3; ++k)
+        body(face[k], face[(k + 1) % 3]);
+    }
+  };
+  for_each_edge([&](std::uint32_t from, std::uint32_t to) { removed.insert(from, to, 0); });
+  for_each_edge([&](std::uint32_t from, std::uint32_t to) {
+    const bool is_inside = removed.find(to, from) != EdgeMap::kNone;
+    const bool has_neighbour = edges.find(to, from) != EdgeMap::kNone;
+    if (!is_inside && !has_neighbour) segments.push_back({from, to});
+  });
+}
+
 void SeamEdges::find() {
   is_near_.assign(joint_.mesh.positions.size(), 0);
   for (std::uint32_t v = 0; v < joint_.first_new; ++v)
     is_near_[v] = is_near_sheet(v) ? 1 : 0;
+  for (const Triangle& face : joint_.removed_wide_faces) {
+    for (const std::uint32_t v : face)
+      is_near_[v] = 1;
+  }
   mark_patch_boundary();
   enter_old_edges();
   enter_patch_edges();
   find_open_patch_edges();
   find_open_old_edges();
+  find_outline_of_removed_faces();
 }
 
 }  // namespace
@@ -178,6 +202,9 @@ void remove_old_faces(Joint& joint, const std::vector<std::uint8_t>& marked, Sti
     }
     for (const std::uint32_t v : face)
       joint.touched[v] = 1;
+    if (longest_side_in_image(face, joint.image) > kWideFace) {
+      joint.removed_wide_faces.push_back(face);
+    }
   }
   report.removed_faces += joint.old_faces - kept;
   joint.old_faces = kept;
@@ -197,10 +224,12 @@ void fill_seam(Joint& joint, const Scan& scan, const PatchSheet& sheet,
   SeamEdges seam(joint, scan, sheet, options.band);
   seam.find();
   drop_conflicting_segments(seam.segments, seam.patch_segments, joint.image.points);
+  const WideFaces removed(joint.removed_wide_faces, joint.image);
   const FilledStrip strip =
       fill_strip({.positions = joint.mesh.positions,
                   .image = joint.image,
                   .sheet = sheet,
+                  .removed = removed,
                   .first_new = joint.first_new,
                   .segments = seam.segments,
                   .old_faces = std::span(joint.mesh.triangles).first(joint.old_faces)},

@@ -8,6 +8,7 @@
 #include "core/stitch/image_plane.h"
 #include "core/stitch/patch_sheet.h"
 #include "core/stitch/stitch.h"
+#include "core/stitch/wide_faces.h"
 
 namespace rangezip {
 
@@ -21,6 +22,7 @@ struct Joint {
   std::vector<std::uint32_t> vertex_of_patch;  ///< differs from first_new + i where the vertex of
                                                ///< the patch became one with an old one
   std::vector<std::uint8_t> touched;           ///< per vertex: faces around it came or went
+  std::vector<Triangle> removed_wide_faces;    ///< see WideFaces
   std::vector<std::uint8_t> seam;              ///< per vertex: on the boundary of the patch
 };
 

@@ -69,6 +69,7 @@ class Zipper {
   [[nodiscard]] std::vector<std::uint32_t> boundary_vertices() const;
   [[nodiscard]] std::vector<SheetMesh::FaceHandle> start_faces(
       std::span<const std::uint32_t> vertices) const;
+  [[nodiscard]] SheetMesh::FaceHandle face_in_sheet(Pixel pixel) const;
   void merge(std::uint32_t patch_vertex, std::uint32_t old_vertex);
   [[nodiscard]] std::vector<Triangle> faces_beside_patch() const;
 
@@ -94,19 +95,28 @@ std::vector<std::uint32_t> Zipper::boundary_vertices() const {
   return vertices;
 }
 
-/// The corresponding faces, by their numbers in the sheet.
+/// The corresponding faces, by their numbers in the sheet. On the end of the old surface a sample
+/// may have none while a neighbour has.
 std::vector<SheetMesh::FaceHandle> Zipper::start_faces(
     std::span<const std::uint32_t> vertices) const {
   std::vector<SheetMesh::FaceHandle> faces;
-  const auto& in_whole = sheet_.face_in_whole;
   for (const std::uint32_t v : vertices) {
-    const PrimitiveId whole = scan_.correspondence.face[scan_.patch.pixels[v]];
-    const auto found = std::lower_bound(in_whole.begin(), in_whole.end(), whole);
-    const bool is_in_sheet = found != in_whole.end() && *found == whole;
-    faces.push_back(is_in_sheet ? SheetMesh::FaceHandle(static_cast<int>(found - in_whole.begin()))
-                                : SheetMesh::FaceHandle());
+    const Pixel p = scan_.patch.pixels[v];
+    SheetMesh::FaceHandle face = face_in_sheet(p);
+    for (int k = 0; k < 9 && !face.is_valid(); ++k)
+      face = face_in_sheet({p.x + k % 3 - 1, p.y + k / 3 - 1});
+    faces.push_back(face);
   }
   return faces;
+}
+
+SheetMesh::FaceHandle Zipper::face_in_sheet(Pixel pixel) const {
+  if (!scan_.image.extent().contains(pixel)) return SheetMesh::FaceHandle();
+  const PrimitiveId face = scan_.correspondence.face[pixel];
+  const auto& in_whole = sheet_.face_in_whole;
+  const auto found = std::lower_bound(in_whole.begin(), in_whole.end(), face);
+  if (found == in_whole.end() || *found != face) return SheetMesh::FaceHandle();
+  return SheetMesh::FaceHandle(static_cast<int>(found - in_whole.begin()));
 }
 
 /// The vertex of the patch becomes one with an old one that has the same image.
