@@ -75,8 +75,9 @@ struct Plane {
                                                                           : Vec3{0.0, 0.0, 1.0};
 }
 
-/// The point of the (possibly degenerate) triangle abc that is nearest to `point`
-/// [Ericson 2005, 5.1.5].
+/// The point of the triangle abc that is nearest to `point` [Ericson 2005, 5.1.5]. The triangle may
+/// be as thin as it likes, a segment or a point. What is given lies on the triangle up to the
+/// rounding of the coordinates, and no point is nearer by more than 1e-12 of the triangle's size.
 [[nodiscard]] Vec3 closest_point_on_triangle(const Vec3& point, const Vec3& a, const Vec3& b,
                                              const Vec3& c) noexcept;
 
