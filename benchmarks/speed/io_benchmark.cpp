@@ -27,16 +27,21 @@ float coordinate(std::uint64_t i) {
   return static_cast<float>((i * kGolden) >> kUnusedBits) * 0x1p-24F;
 }
 
-std::string header(const char* format, std::uint64_t points) {
+std::string header(const char* format, const std::string& type, std::uint64_t points) {
+  const std::string property = "property " + type + " ";
   return std::string("ply\nformat ") + format + " 1.0\nelement vertex " + std::to_string(points) +
-         "\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+         "\n" + property + "x\n" + property + "y\n" + property + "z\nend_header\n";
 }
 
-void make_binary(const std::filesystem::path& path, std::uint64_t points) {
+/// `Number` is float or double, `type` its name in PLY; all coordinates are moved by `offset`.
+template <class Number>
+void make_binary(const std::filesystem::path& path, const std::string& type, Number offset,
+                 std::uint64_t points) {
   rangezip::AtomicFile file(path);
-  file.write(header("binary_little_endian", points));
+  file.write(header("binary_little_endian", type, points));
   for (std::uint64_t i = 0; i < 3 * points; ++i) {
-    const auto bytes = std::bit_cast<std::array<char, sizeof(float)>>(coordinate(i));
+    const Number value = offset + Number{coordinate(i)};
+    const auto bytes = std::bit_cast<std::array<char, sizeof(Number)>>(value);
     file.write({bytes.data(), bytes.size()});
   }
   file.commit();
@@ -60,14 +65,23 @@ long peak_mib() {
   return usage.ru_maxrss / 1024;
 }
 
+double cpu_seconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+/// The file alone, and then the file as a scene: with bounds and checks.
 void measure(const std::filesystem::path& path) {
-  const std::clock_t begin = std::clock();
-  const rangezip::InputFile input = rangezip::read_input(path);
-  const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-  const auto points = static_cast<double>(input.reports.at(0).points);
-  std::printf("%-28s %10.0f points %8.3f s CPU %8.1f M points/s, peak %ld MiB, file %ld MiB\n",
-              input.reports[0].format.c_str(), points, seconds, points / seconds / 1e6, peak_mib(),
-              static_cast<long>(std::filesystem::file_size(path) >> 20U));
+  const double begin = cpu_seconds();
+  const std::size_t points = rangezip::read_input(path).reports.at(0).points;
+  const double middle = cpu_seconds();
+  static_cast<void>(rangezip::read_scene(std::array{path}));
+  const double end = cpu_seconds();
+  const double millions = static_cast<double>(points) / 1e6;
+  std::printf(
+      "%-12s %5.1f M points; M points/s of CPU: file %6.1f, scene %6.1f; peak %ld MiB, "
+      "file %ld MiB\n",
+      path.filename().c_str(), millions, millions / (middle - begin), millions / (end - middle),
+      peak_mib(), static_cast<long>(std::filesystem::file_size(path) >> 20U));
 }
 
 }  // namespace
@@ -79,9 +93,12 @@ int main(int argc, char** argv) {
       std::filesystem::temp_directory_path() / ("io_benchmark-" + std::to_string(::getpid()));
   std::filesystem::create_directory(folder);
   make_text(folder / "cloud.xyz", "", text);
-  make_text(folder / "text.ply", header("ascii", text), text);
-  make_binary(folder / "binary.ply", binary);
-  for (const char* name : {"cloud.xyz", "text.ply", "binary.ply"})
+  make_text(folder / "text.ply", header("ascii", "float", text), text);
+  make_binary(folder / "float.ply", "float", 0.0F, binary);
+  make_binary(folder / "double.ply", "double", 0.0, binary);
+  // As coordinates of a map grid: too far from 0 for floats, so stored about a nearer origin.
+  make_binary(folder / "far.ply", "double", 5.0e6, binary);
+  for (const char* name : {"cloud.xyz", "text.ply", "float.ply", "double.ply", "far.ply"})
     measure(folder / name);
   std::filesystem::remove_all(folder);
 }

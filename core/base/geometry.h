@@ -37,10 +37,11 @@ struct Box {
     return is_empty() ? 0.0 : glm::length(upper - lower);
   }
   void add(const Vec3& point) noexcept {
-    for (int axis = 0; axis < 3; ++axis) {
-      lower[axis] = point[axis] < lower[axis] ? point[axis] : lower[axis];
-      upper[axis] = point[axis] > upper[axis] ? point[axis] : upper[axis];
-    }
+    // Axis by axis, not in a loop: this way compilers keep the box in registers.
+    lower = {point.x < lower.x ? point.x : lower.x, point.y < lower.y ? point.y : lower.y,
+             point.z < lower.z ? point.z : lower.z};
+    upper = {point.x > upper.x ? point.x : upper.x, point.y > upper.y ? point.y : upper.y,
+             point.z > upper.z ? point.z : upper.z};
   }
   void add(const Box& box) noexcept {
     if (box.is_empty()) return;
