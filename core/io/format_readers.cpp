@@ -38,7 +38,7 @@ bool is_geometry_type(const std::string& type) {
 }
 
 RawGeometry read_geometry(const FileBytes& file, const std::string& type,
-                          PositionList::Precision precision, const Vec3& origin,
+                          PositionList::Precision precision, const std::optional<Vec3>& origin,
                           const Progress& progress) {
   const Reader reader = reader_of(type);
   if (reader == nullptr) {

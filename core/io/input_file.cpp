@@ -21,16 +21,16 @@ Mat4 translation(const Vec3& offset) {
   return matrix;
 }
 
-/// Reads about the origin 0 and, if the data are far from it, once more about a nearer one: most
-/// files are read once, and never are more than the floats in memory.
+/// Reads about the origin that the reader foresees and, if the data turn out to have another one,
+/// once more about that: most files are read once, and never are more than the floats in memory.
 RawGeometry read_about_best_origin(const FileBytes& file, const std::string& type,
                                    const Progress& progress) {
   constexpr auto kPrecision = PositionList::Precision::local_float;
   Vec3 origin{0.0};
   {
-    RawGeometry geometry = read_geometry(file, type, kPrecision, origin, progress);
+    RawGeometry geometry = read_geometry(file, type, kPrecision, std::nullopt, progress);
     origin = geometry.positions.best_origin();
-    if (origin == Vec3{0.0}) return geometry;
+    if (origin == geometry.positions.origin()) return geometry;
   }
   return read_geometry(file, type, kPrecision, origin, progress);
 }

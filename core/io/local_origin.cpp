@@ -45,6 +45,13 @@ LocalOrigin::LocalOrigin() {
   sample_.reserve(kMostSamples);
 }
 
+std::size_t LocalOrigin::stride_of(std::size_t count) {
+  std::size_t stride = 1;
+  while (count > kMostSamples * stride)
+    stride *= 2;
+  return stride;
+}
+
 void LocalOrigin::take(const Vec3& position) {
   if (sample_.size() == kMostSamples) {
     for (std::size_t i = 0; 2 * i < kMostSamples; ++i)

@@ -18,6 +18,10 @@ class LocalOrigin {
  public:
   LocalOrigin();
 
+  /// Of `count` positions, those whose index is a multiple of this decide. Given only these,
+  /// origin() is the same.
+  [[nodiscard]] static std::size_t stride_of(std::size_t count);
+
   /// Takes the next position of the file. @pre finite
   void add(const Vec3& position) {
     if (--until_next_ == 0) take(position);

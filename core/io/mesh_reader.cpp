@@ -6,7 +6,7 @@ namespace rangezip {
 TriangleMesh read_mesh(const std::filesystem::path& path) {
   const FileBytes file(path);
   RawGeometry geometry =
-      read_geometry(file, file_type(path), PositionList::Precision::exact, Vec3{0.0}, {});
+      read_geometry(file, file_type(path), PositionList::Precision::exact, std::nullopt, {});
   TriangleMesh mesh;
   mesh.triangles = split_polygons(geometry).triangles;
   if (mesh.triangles.empty()) {

@@ -299,6 +299,7 @@ class BinaryReader : private PlyReader {
                                    std::to_string(element.count) + " of element " +
                                    quote(element.name));
     }
+    if (plan.role == Role::vertices) foresee_origin(element, plan);
     const char* const element_end = at_ + element.count * stride;
     while (plan.role == Role::vertices && at_ != element_end) {
       progress.check_stop();
@@ -310,17 +311,46 @@ class BinaryReader : private PlyReader {
     at_ = element_end;
   }
 
-  void read_positions(const PlyElement& element, const Plan& plan, std::string_view block) {
+  /// The positions that decide the origin are at known places, unless some are not finite.
+  void foresee_origin(const PlyElement& element, const Plan& plan) {
+    const std::size_t stride = element.binary_size();
+    const std::array<std::size_t, 3> offset = offsets_of(element, plan);
+    LocalOrigin origin;
+    for (std::size_t i = 0; i < element.count; i += LocalOrigin::stride_of(element.count)) {
+      const Vec3 position = load_position(element, plan, offset, at_ + i * stride);
+      if (is_usable(position)) origin.add(position);
+    }
+    geometry_.positions.foresee_origin(origin.origin());
+  }
+
+  /// Where in an instance the three coordinates are, in bytes.
+  static std::array<std::size_t, 3> offsets_of(const PlyElement& element, const Plan& plan) {
     std::array<std::size_t, 3> offset{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (std::size_t i = 0; i < plan.coordinates[axis]; ++i)
+        offset[axis] += size_of(element.properties[i].type);
+    }
+    return offset;
+  }
+
+  [[nodiscard]] Vec3 load_position(const PlyElement& element, const Plan& plan,
+                                   const std::array<std::size_t, 3>& offset,
+                                   const char* vertex) const {
+    const auto coordinate = [&](std::size_t axis) {
+      return load_number(element.properties[plan.coordinates[axis]].type, vertex + offset[axis],
+                         is_swapped_);
+    };
+    return {coordinate(0), coordinate(1), coordinate(2)};
+  }
+
+  void read_positions(const PlyElement& element, const Plan& plan, std::string_view block) {
+    const std::array<std::size_t, 3> offset = offsets_of(element, plan);
     bool is_float = !is_swapped_;
     bool is_double = !is_swapped_;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::size_t property = plan.coordinates[axis];
-      for (std::size_t i = 0; i < property; ++i) {
-        offset[axis] += size_of(element.properties[i].type);
-      }
-      is_float = is_float && element.properties[property].type == PlyType::float32;
-      is_double = is_double && element.properties[property].type == PlyType::float64;
+      const PlyType type = element.properties[plan.coordinates[axis]].type;
+      is_float = is_float && type == PlyType::float32;
+      is_double = is_double && type == PlyType::float64;
     }
     const std::size_t stride = element.binary_size();
     if (is_float) {
@@ -329,13 +359,7 @@ class BinaryReader : private PlyReader {
       read_native<double>(block, stride, offset);
     } else {
       for (std::size_t i = 0; i < block.size(); i += stride) {
-        Vec3 position{0.0};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          position[static_cast<int>(axis)] =
-              load_number(element.properties[plan.coordinates[axis]].type,
-                          block.data() + i + offset[axis], is_swapped_);
-        }
-        geometry_.positions.add(position);
+        geometry_.positions.add(load_position(element, plan, offset, block.data() + i));
       }
     }
   }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,8 +30,16 @@ class PositionList {
  public:
   enum class Precision { local_float, exact };
 
-  explicit PositionList(Precision precision, const Vec3& origin = Vec3{0.0})
-      : is_exact_(precision == Precision::exact), origin_(origin) {}
+  /// Without `origin` it is 0, or what the reader foresees.
+  explicit PositionList(Precision precision, const std::optional<Vec3>& origin = std::nullopt)
+      : is_exact_(precision == Precision::exact),
+        is_origin_given_(origin.has_value()),
+        origin_(origin.value_or(Vec3{0.0})) {}
+
+  /// For a reader that can look ahead: what best_origin() probably will be. @pre nothing was added
+  void foresee_origin(const Vec3& origin) {
+    if (!is_exact_ && !is_origin_given_) origin_ = origin;
+  }
 
   void reserve(std::size_t count) { is_exact_ ? exact_.reserve(count) : local_.reserve(count); }
   void add(const Vec3& p) {
@@ -75,6 +84,7 @@ class PositionList {
   void add_unusable();
 
   bool is_exact_;
+  bool is_origin_given_;
   Vec3 origin_;
   std::vector<Vec3f> local_;
   std::vector<Vec3> exact_;
@@ -102,10 +112,12 @@ struct RawGeometry {
 /// Highest number of positions a file may have: indices have 32 bits, one value is kept free.
 inline constexpr std::size_t kMostPositions = 0xffff'ffffU;
 
-/// Reads `file`, whose type is `type` (file_type()), whatever format that is.
+/// Reads `file`, whose type is `type` (file_type()), whatever format that is. Positions are stored
+/// about `origin`; without one, the reader chooses: see PositionList::best_origin().
 /// @throws IoError naming file, place and rule
 [[nodiscard]] RawGeometry read_geometry(const FileBytes& file, const std::string& type,
-                                        PositionList::Precision precision, const Vec3& origin,
+                                        PositionList::Precision precision,
+                                        const std::optional<Vec3>& origin,
                                         const Progress& progress);
 
 /// True if read_geometry() knows the type.

@@ -1,8 +1,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
+#include "core/io/byte_order.h"
 #include "core/io/input_file.h"
 #include "core/io/local_origin.h"
 #include "core/io/mesh_file.h"
@@ -26,6 +28,20 @@ std::string ply_of(const std::vector<Vec3>& points) {
     text += line;
   }
   return text;
+}
+
+/// The same, little-endian.
+std::string binary_ply_of(const std::vector<Vec3>& points) {
+  std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " +
+                      std::to_string(points.size()) +
+                      "\nproperty double x\nproperty double y\nproperty double z\nend_header\n";
+  for (const Vec3& p : points) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto number = little_bytes(p[axis]);
+      bytes.append(number.data(), number.size());
+    }
+  }
+  return bytes;
 }
 
 /// Points of a box of the given size, all floats.
@@ -92,6 +108,43 @@ TEST_CASE("Data near zero keep the origin 0 and every bit of their floats") {
   CHECK(input.reports[0].origin == Vec3{0.0});
   for (std::size_t i = 0; i < points.size(); ++i) {
     CHECK(Vec3(input.items[0].cloud->positions[i]) == points[i]);
+  }
+}
+
+TEST_CASE("The positions at multiples of the stride decide the origin") {
+  shapes::Random random(6);
+  for (const std::size_t count : {1U, 7U, 4095U, 4096U, 4097U, 8192U, 8193U, 50000U}) {
+    CAPTURE(count);
+    LocalOrigin of_all;
+    LocalOrigin of_some;
+    const std::size_t stride = LocalOrigin::stride_of(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      // Most others are far away: had they a say, the origin would be there.
+      const Vec3 p = i % stride == 0 ? kShift + random.direction() : Vec3{-1e7};
+      of_all.add(p);
+      if (i % stride == 0) of_some.add(p);
+    }
+    CHECK(of_all.origin() == of_some.origin());
+    CHECK(glm::length(of_all.origin() - kShift) < 2.0);
+  }
+}
+
+TEST_CASE("Binary and text of the same points have the same origin and local floats") {
+  const TemporaryFolder folder;
+  for (const bool is_shifted : {false, true}) {
+    CAPTURE(is_shifted);
+    std::vector<Vec3> points = cloud(5, {0, 0, 0}, 0.7);
+    // Every second position decides: those at kShift.
+    for (std::size_t i = 0; i < points.size(); ++i)
+      points[i] += i % 2 == 0 ? kShift : -kShift;
+    // One that does not count, and the others decide, which cannot be foreseen.
+    if (is_shifted) points[0].y = std::numeric_limits<double>::quiet_NaN();
+    const InputFile text = read_input(folder.store("a.ply", ply_of(points)));
+    const InputFile binary = read_input(folder.store("b.ply", binary_ply_of(points)));
+    CHECK(binary.reports[0].origin == text.reports[0].origin);
+    const Vec3 expected = is_shifted ? -kShift : kShift;
+    CHECK(glm::length(binary.reports[0].origin - expected) < 1.0);
+    CHECK(binary.items[0].cloud->positions == text.items[0].cloud->positions);
   }
 }
 
