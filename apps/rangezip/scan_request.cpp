@@ -8,6 +8,7 @@
 #include "apps/rangezip/commands.h"
 #include "apps/rangezip/exit_code.h"
 #include "apps/rangezip/values.h"
+#include "core/base/deterministic_math.h"
 #include "core/reconstruct/resolution.h"
 #include "core/reconstruct/scan_recipe.h"
 #include "core/session/run_command.h"
@@ -156,7 +157,7 @@ Framing frame_perspective(const Box& bounds, double pixel_size, const ScanChoice
     throw UsageError("--perspective: give only one of --size and --pixel-size; the other follows");
   }
   const double fov_y = *choices.perspective * std::numbers::pi / kHalfTurn;
-  const double slope = std::tan(0.5 * fov_y);
+  const double slope = deterministic_tan(0.5 * fov_y);
   const double aspect =
       choices.size ? static_cast<double>(choices.size->width) / choices.size->height : 1.0;
   const double narrow = slope * std::min(1.0, aspect);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/base/deterministic_math.h"
 #include "core/base/error.h"
 
 namespace rangezip {
@@ -89,7 +90,7 @@ View::View(Camera camera, Extent extent) : camera_(std::move(camera)), extent_(e
       throw InvalidArgument("View: a perspective lens needs near_depth > 0, got " +
                             std::to_string(near));
     }
-    unit_pixel_size_ = 2.0 * std::tan(0.5 * fov_y) / extent_.height;
+    unit_pixel_size_ = 2.0 * deterministic_tan(0.5 * fov_y) / extent_.height;
     window_from_eye[0][0] = 1.0 / unit_pixel_size_;
     window_from_eye[1][1] = 1.0 / unit_pixel_size_;
     window_from_eye[2] = {-half_width, -half_height, -far / (far - near), -1.0};
