@@ -147,7 +147,7 @@ figure_8() {
 figure_9() {
   sampled igea-noisy mesh/igea.ply 400000 --noise 0.001 --seed 4
   local cloud=$work/igea-noisy.ply show=(--direction 0.4,0.1,1)
-  "$rangezip" mesh "$cloud" -o "$work/9b.ply" --triangles 33000 --finish none --session "$work/9.json" -q
+  "$rangezip" mesh "$cloud" -o "$work/9b.ply" --pixel-size 0.00686 --finish none --session "$work/9.json" -q
   edited "$work/9-smooth.json" "$work/9.json" \
     'c + [{"command": "finish"}, {"command": "smooth", "iterations": 1, "factor": 0.5}]'
   "$rangezip" play "$work/9-smooth.json" -o "$work/9c.ply" -q
