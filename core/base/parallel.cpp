@@ -61,7 +61,7 @@ void run_with_threads(int threads, const std::function<void()>& work) {
     int before = allowed_threads;
     ~Restore() { allowed_threads = before; }
   } restore;
-  allowed_threads = threads;
+  allowed_threads = std::min(threads, machine_threads());
   work();
 }
 

@@ -1,5 +1,6 @@
 #include "core/base/parallel.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <mutex>
@@ -65,7 +66,7 @@ TEST_CASE("run_with_threads limits the loops inside it, and only those", "[base]
   const int before = thread_count();
   CHECK(before >= 1);
   run_with_threads(1, [] { CHECK(thread_count() == 1); });
-  run_with_threads(3, [] { CHECK(thread_count() == 3); });
+  run_with_threads(3, [&] { CHECK(thread_count() == std::min(3, before)); });
   CHECK(thread_count() == before);
 }
 
