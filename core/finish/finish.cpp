@@ -6,6 +6,7 @@
 #include "core/base/error.h"
 #include "core/finish/boundary_loops.h"
 #include "core/finish/corner_table.h"
+#include "core/finish/extend_border.h"
 #include "core/finish/point_grid.h"
 #include "core/finish/relax.h"
 #include "core/finish/repair.h"
@@ -55,6 +56,7 @@ FinishResult finish(TriangleMesh mesh, std::span<const Vec3> cloud, const Finish
       result.report.flipped_edges += snapped.flipped_edges;
     }
     repair(mesh, points, options, result.report, progress);
+    result.report.border_moves = extend_border(mesh, points, {h}, progress).moves;
   }
   const CornerTable table(mesh.triangles, mesh.positions.size());
   result.report.open_loops = boundary_loops(table).size();

@@ -10,7 +10,8 @@ namespace rangezip {
 
 enum class FinishMethod {
   fast,  ///< closes holes and removes self-intersections
-  full,  ///< also relaxes the triangles, fits vertices to the cloud and snaps sharp features
+  full,  ///< also relaxes the triangles, fits vertices to the cloud, snaps sharp features, and
+         ///< moves borders out to the end of the cloud
 };
 
 struct FinishOptions {
@@ -33,6 +34,7 @@ struct FinishReport {
   std::size_t collapsed_edges = 0;
   std::size_t flipped_edges = 0;
   std::size_t snapped_vertices = 0;
+  std::size_t border_moves = 0;  ///< of border vertices, out to the end of the cloud
   std::size_t dropped_components = 0;
   std::size_t dropped_faces = 0;
 };
@@ -44,7 +46,8 @@ struct FinishResult {
 
 /// Makes a clean mesh of the stitched scans: removes self-intersections, bridges cracks between
 /// pieces, closes holes that the cloud does not show to be real, then improves triangles without
-/// leaving the cloud. The result is oriented, manifold and free of self-intersections.
+/// leaving the cloud and moves borders that stay to where it ends. The result is oriented, manifold
+/// and free of self-intersections.
 /// @param cloud world positions of the points that were scanned (and area samples of polygons), to
 ///     which vertices are fitted and which give evidence; may be empty: no fitting
 /// @throws InvalidArgument if pixel_size is not positive and finite.

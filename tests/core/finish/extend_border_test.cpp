@@ -1,0 +1,187 @@
+#include "core/finish/extend_border.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "core/finish/self_intersection.h"
+#include "core/mesh/mesh_report.h"
+#include "tests/core/finish/shapes.h"
+
+namespace rangezip {
+namespace {
+
+using testing::uniform;
+
+constexpr int kN = 24;
+constexpr double kH = 2.0 / kN;
+const Box kRegion{Vec3(-2.5), Vec3(2.5)};
+
+PointGrid grid_of(const std::vector<Vec3>& points) {
+  return PointGrid(points, kRegion, 0.7 * kH);
+}
+
+/// The square [-half, half]^2 at z = 0, facing up.
+TriangleMesh sheet(double half) {
+  TriangleMesh mesh = testing::cube(kN);
+  testing::cut_where(mesh, [](const Vec3& p) { return p.z < 1.0; });
+  for (Vec3& p : mesh.positions)
+    p = Vec3(half * p.x, half * p.y, 0.0);
+  return mesh;
+}
+
+/// About nine a pixel in [-1, 1]^2 at z = 0.
+std::vector<Vec3> square_points(std::uint64_t seed) {
+  std::mt19937_64 engine(seed);
+  std::vector<Vec3> points(static_cast<std::size_t>(9 * kN * kN));
+  for (Vec3& p : points)
+    p = {uniform(engine, -1, 1), uniform(engine, -1, 1), 0.0};
+  return points;
+}
+
+/// How far a point of the plane z = 0 is from the mesh in that plane.
+double distance_from(const TriangleMesh& mesh, const Vec3& p) {
+  double nearest = 1e9;
+  for (const Triangle& t : mesh.triangles) {
+    bool is_inside = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3& a = mesh.positions[t[i]];
+      const Vec3 edge = mesh.positions[t[(i + 1) % 3]] - a;
+      if (glm::cross(edge, p - a).z >= 0.0) continue;
+      is_inside = false;
+      const double s = glm::clamp(glm::dot(p - a, edge) / glm::dot(edge, edge), 0.0, 1.0);
+      nearest = std::min(nearest, glm::length(p - a - s * edge));
+    }
+    if (is_inside) return 0.0;
+  }
+  return nearest;
+}
+
+std::size_t count_beyond(const TriangleMesh& mesh, const std::vector<Vec3>& points, double least) {
+  std::size_t count = 0;
+  for (const Vec3& p : points)
+    count += distance_from(mesh, p) > least ? 1 : 0;
+  return count;
+}
+
+void require_clean(const TriangleMesh& mesh) {
+  REQUIRE(report_mesh(mesh).is_manifold());
+  REQUIRE(self_intersections(mesh).empty());
+}
+
+TEST_CASE("extend_border moves the edge of a sheet to the end of the points") {
+  const std::uint64_t seed = GENERATE(1U, 2U, 3U);
+  CAPTURE(seed);
+  const std::vector<Vec3> points = square_points(seed);
+  TriangleMesh mesh = sheet(1.0 - 0.8 * kH);
+  // 0.55 h all around, 8 / h pixels long, hold so many of the points.
+  REQUIRE(count_beyond(mesh, points, 0.25 * kH) > 300);
+  const ExtendBorderReport report = extend_border(mesh, grid_of(points), {kH});
+  REQUIRE(report.moves >= 4 * kN / 2);
+  REQUIRE(count_beyond(mesh, points, 0.25 * kH) == 0);
+  REQUIRE(count_beyond(mesh, points, 0.1 * kH) < 300 / 20);
+  require_clean(mesh);
+  // Along its direction no vertex passes the farthest point; where the border is bent, that
+  // direction is not square to the side.
+  const double limit = 1.0 + 0.2 * kH;
+  for (const Vec3& p : mesh.positions) {
+    REQUIRE(std::abs(p.x) <= limit);
+    REQUIRE(std::abs(p.y) <= limit);
+    REQUIRE(std::abs(p.z) < 1e-6 * kH);  // the points are stored as floats
+  }
+}
+
+TEST_CASE("extend_border follows a curved surface") {
+  std::mt19937_64 engine(5);
+  std::vector<Vec3> points;
+  while (points.size() < 20000) {
+    const Vec3 p(uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 0.2));
+    const double length = glm::length(p);
+    if (length > 0.1 && length < 1.0 && p.z < 0.2 * length) points.push_back(p / length);
+  }
+  TriangleMesh mesh = testing::sphere(kN);
+  testing::cut_where(mesh, [](const Vec3& p) { return p.z > 0.2 - 0.3 * kH; });
+  const TriangleMesh before = mesh;
+  REQUIRE(extend_border(mesh, grid_of(points), {kH}).moves > 0);
+  require_clean(mesh);
+  double highest_before = -1.0, highest = -1.0;
+  for (const Vec3& p : before.positions)
+    highest_before = std::max(highest_before, p.z);
+  for (const Vec3& p : mesh.positions) {
+    highest = std::max(highest, p.z);
+    // Points within 1.2 h of a place on a sphere are up to 0.72 h^2 below its tangent plane.
+    REQUIRE(std::abs(glm::length(p) - 1.0) < 0.72 * kH * kH);
+  }
+  REQUIRE(highest > highest_before);
+  REQUIRE(highest < 0.2 + 0.25 * kH);
+}
+
+TEST_CASE("a border where the points end already stays") {
+  std::vector<Vec3> points = square_points(1);
+  TriangleMesh mesh = sheet(1.0);
+  SECTION("and no other points are there") {}
+  SECTION("and single points lie beyond it") {
+    for (int i = -5; i <= 5; ++i)
+      points.emplace_back(1.0 + 0.9 * kH, 4.0 * i * kH, 0.0);
+  }
+  SECTION("and another sheet is above it") {
+    for (Vec3 p : square_points(2))
+      points.emplace_back(p.x + 0.5, p.y, 0.6 * kH);
+  }
+  const TriangleMesh before = mesh;
+  REQUIRE(extend_border(mesh, grid_of(points), {kH}).moves == 0);
+  REQUIRE(mesh == before);
+}
+
+TEST_CASE("points of the sheet on the other side of a crack do not count") {
+  std::vector<Vec3> points;
+  TriangleMesh mesh = sheet(1.0);
+  const auto count = static_cast<std::uint32_t>(mesh.positions.size());
+  const Vec3 across(2.0 + 0.6 * kH, 0.0, 0.0);
+  for (const Vec3& p : square_points(3)) {
+    points.push_back(p);
+    points.push_back(p + across);
+  }
+  for (std::uint32_t v = 0; v < count; ++v)
+    mesh.positions.push_back(mesh.positions[v] + across);
+  const std::size_t faces = mesh.triangles.size();
+  for (std::size_t f = 0; f < faces; ++f) {
+    const Triangle t = mesh.triangles[f];
+    mesh.triangles.push_back({t[0] + count, t[1] + count, t[2] + count});
+  }
+  const TriangleMesh before = mesh;
+  const PointGrid cloud(points, {Vec3(-4), Vec3(4)}, 0.7 * kH);
+  extend_border(mesh, cloud, {kH});
+  REQUIRE(mesh == before);
+}
+
+TEST_CASE("extend_border takes moves back that let faces cross") {
+  TriangleMesh mesh = sheet(1.0 - 0.8 * kH);
+  // A wall of two large faces, without a vertex near, in the way of one side of the sheet.
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  const double x = 1.0 - 0.4 * kH;
+  for (const Vec3 p : {Vec3(x, -2, -1), Vec3(x, 2, -1), Vec3(x, 2, 2), Vec3(x, -2, 2)})
+    mesh.positions.push_back(p);
+  mesh.triangles.push_back({first, first + 1, first + 2});
+  mesh.triangles.push_back({first, first + 2, first + 3});
+  REQUIRE(self_intersections(mesh).empty());
+  const ExtendBorderReport report = extend_border(mesh, grid_of(square_points(4)), {kH});
+  REQUIRE(report.reverted_moves > 0);
+  REQUIRE(report.moves >= 3 * kN / 2);  // the other three sides
+  require_clean(mesh);
+}
+
+TEST_CASE("extend_border leaves a closed mesh alone, and any mesh without a cloud") {
+  TriangleMesh mesh = testing::cube(kN);
+  const TriangleMesh before = mesh;
+  REQUIRE(extend_border(mesh, grid_of(square_points(5)), {kH}).moves == 0);
+  REQUIRE(mesh == before);
+  TriangleMesh open = sheet(0.9);
+  const TriangleMesh open_before = open;
+  REQUIRE(extend_border(open, PointGrid({}, kRegion, kH), {kH}).moves == 0);
+  REQUIRE(open == open_before);
+}
+
+}  // namespace
+}  // namespace rangezip
