@@ -10,7 +10,7 @@ namespace rangezip {
 
 struct ExtendBorderOptions {
   double pixel_size = 0.0;  ///< h, model units; positive
-  int rounds = 5;           ///< of moving every border vertex
+  int rounds = 3;           ///< of moving every border vertex
 };
 
 struct ExtendBorderReport {
