@@ -10,6 +10,9 @@ std::array<SheetMesh::VertexHandle, 3> SheetMesh::corners(FaceHandle f) const {
 
 std::int64_t SheetMesh::area(FaceHandle f) const {
   const auto [a, b, c] = corners(f);
+  for (const VertexHandle v : {a, b, c}) {
+    if (depth(v) == ImagePlane::kBehindViewer) return 0;
+  }
   return orientation(point(a), point(b), point(c));
 }
 

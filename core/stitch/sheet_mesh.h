@@ -30,7 +30,8 @@ struct SheetMesh {
   }
   [[nodiscard]] std::array<VertexHandle, 3> corners(FaceHandle f) const;
 
-  /// Twice the signed area in the image; positive if the face looks at the viewer.
+  /// Twice the signed area in the image: positive if the face looks at the viewer, 0 if a part of
+  /// it has no image.
   [[nodiscard]] std::int64_t area(FaceHandle f) const;
 
   /// Whether p lies left of the directed edge (positive), right, or on its line (0).

@@ -13,22 +13,34 @@ namespace rangezip {
 
 namespace {
 
-/// Marks the old faces that the steps may change: those whose box in the image meets the patch's.
-std::vector<std::uint8_t> faces_near_patch(const Joint& joint, const PatchSheet& sheet) {
+bool meets_patch(const Triangle& face, const ImagePlane& image, const PatchSheet& sheet) {
+  const bool is_visible =
+      std::all_of(face.begin(), face.end(), [&](std::uint32_t v) { return image.has_image(v); });
   const GridPoint lower = grid_point(sheet.first_pixel());
   const GridPoint upper = grid_point(sheet.last_pixel());
+  const GridPoint& a = image.points[face[0]];
+  const GridPoint& b = image.points[face[1]];
+  const GridPoint& c = image.points[face[2]];
+  return is_visible && std::min({a.x, b.x, c.x}) <= upper.x &&
+         std::max({a.x, b.x, c.x}) >= lower.x && std::min({a.y, b.y, c.y}) <= upper.y &&
+         std::max({a.y, b.y, c.y}) >= lower.y;
+}
+
+/// Marks the old faces whose box in the image meets the patch's, which the steps may change, and
+/// all that have two of their vertices: a flip must know every edge between those.
+std::vector<std::uint8_t> faces_near_patch(const Joint& joint, const PatchSheet& sheet) {
   std::vector<std::uint8_t> marked(joint.old_faces, 0);
+  std::vector<std::uint8_t> is_corner(joint.mesh.positions.size(), 0);
   for (std::size_t f = 0; f < joint.old_faces; ++f) {
     const Triangle& face = joint.mesh.triangles[f];
-    const bool is_visible = std::all_of(face.begin(), face.end(),
-                                        [&](std::uint32_t v) { return joint.image.has_image(v); });
-    const GridPoint& a = joint.image.points[face[0]];
-    const GridPoint& b = joint.image.points[face[1]];
-    const GridPoint& c = joint.image.points[face[2]];
-    const bool is_near =
-        std::min({a.x, b.x, c.x}) <= upper.x && std::max({a.x, b.x, c.x}) >= lower.x &&
-        std::min({a.y, b.y, c.y}) <= upper.y && std::max({a.y, b.y, c.y}) >= lower.y;
-    marked[f] = is_visible && is_near ? 1 : 0;
+    if (!meets_patch(face, joint.image, sheet)) continue;
+    marked[f] = 1;
+    for (const std::uint32_t v : face)
+      is_corner[v] = 1;
+  }
+  for (std::size_t f = 0; f < joint.old_faces; ++f) {
+    const Triangle& face = joint.mesh.triangles[f];
+    if (is_corner[face[0]] + is_corner[face[1]] + is_corner[face[2]] >= 2) marked[f] = 1;
   }
   return marked;
 }
@@ -71,7 +83,7 @@ class Zipper {
       std::span<const std::uint32_t> vertices) const;
   [[nodiscard]] SheetMesh::FaceHandle face_in_sheet(Pixel pixel) const;
   void merge(std::uint32_t patch_vertex, std::uint32_t old_vertex);
-  [[nodiscard]] std::vector<Triangle> faces_beside_patch() const;
+  [[nodiscard]] std::vector<Triangle> faces_beside_patch();
 
   Joint& joint_;
   const Scan& scan_;
@@ -171,19 +183,27 @@ void Zipper::remove_covered() {
   report_.removed_faces = remove_covered_faces(sheet_, patch_sheet_, options_.band);
 }
 
-/// The faces left in the sheet, without those that claim a side of the patch's boundary that the
-/// patch itself takes: remains under a segment that could not be inserted.
-std::vector<Triangle> Zipper::faces_beside_patch() const {
-  EdgeMap boundary(boundary_.size());
-  for (const auto& [from, to] : boundary_) {
-    boundary.insert(joint_.vertex_of_patch[from], joint_.vertex_of_patch[to], 0);
+/// The faces left in the sheet, without those that claim a side of an edge that the patch itself
+/// takes: remains under a segment that could not be inserted, or on a sheet beyond the band.
+std::vector<Triangle> Zipper::faces_beside_patch() {
+  EdgeMap of_patch(3 * boundary_.size());
+  for (const Triangle& t : scan_.patch.mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = t[k];
+      const std::uint32_t to = t[(k + 1) % 3];
+      if (!handles_[from].is_valid() || !handles_[to].is_valid()) continue;
+      of_patch.insert(joint_.vertex_of_patch[from], joint_.vertex_of_patch[to], 0);
+    }
   }
   std::vector<Triangle> faces = faces_in_whole(sheet_);
   std::erase_if(faces, [&](const Triangle& face) {
+    bool is_taken = false;
     for (std::size_t k = 0; k < 3; ++k) {
-      if (boundary.find(face[k], face[(k + 1) % 3]) != EdgeMap::kNone) return true;
+      is_taken = is_taken || of_patch.find(face[k], face[(k + 1) % 3]) != EdgeMap::kNone;
     }
-    return false;
+    for (const std::uint32_t v : face)
+      joint_.touched[v] |= is_taken ? 1 : 0;
+    return is_taken;
   });
   return faces;
 }
