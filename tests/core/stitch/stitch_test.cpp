@@ -166,6 +166,29 @@ TEST_CASE("a patch that leaves the mesh extends it", "[stitch]") {
   CHECK(report_mesh(both).euler == 1);
 }
 
+TEST_CASE("a gap is closed up to max_gap", "[stitch]") {
+  const StitchMethod method = any_method();
+  const TriangleMesh mesh =
+      stitched({}, hand_scan(plane(20.0), rectangle({5, 10}, {25, 30})), method);
+  const int gap = GENERATE(1, 2, 3, 4, 8);
+  CAPTURE(gap);
+  const Scan scan = hand_scan(plane(20.0), rectangle({25 + gap, 10}, {45 + gap, 30}), mesh);
+  const TriangleMesh both = stitched(mesh, scan, method);
+  // The diagonal of a strip of squares is the longest edge: sqrt(1 + 9) < 3.5 < sqrt(1 + 16).
+  const bool is_closed = gap <= 3;
+  CHECK(area_of(both) == exactly(800.0 + (is_closed ? gap * 20.0 : 0.0)));
+  CHECK(report_mesh(both).components == (is_closed ? 1 : 2));
+}
+
+TEST_CASE("a gap is not closed by steep faces", "[stitch]") {
+  const StitchMethod method = any_method();
+  const TriangleMesh mesh = lattice({5.0, 10.0}, 20, 20, 1.0, 20.0);
+  // One pixel beside and eight pixels nearer or farther: 83 degrees.
+  const double depth = GENERATE(12.0, 28.0);
+  const Scan scan = hand_scan(plane(depth), rectangle({26, 10}, {45, 30}), mesh);
+  CHECK(report_mesh(stitched(mesh, scan, method)).components == 2);
+}
+
 TEST_CASE("a sheet at another depth is not touched", "[stitch]") {
   const StitchMethod method = any_method();
   const double behind = GENERATE(25.0, 15.0);
