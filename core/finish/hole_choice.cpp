@@ -24,7 +24,9 @@ constexpr double kMinOutline = 30.0;
 /// round one is wider than 0.3 of its perimeter.
 constexpr double kLargeWidth = 0.25;
 /// Area over squared perimeter, 1 for a circle: below, the plane across a loop means little.
-constexpr double kRound = 0.4;
+/// A loop that has been zipped is as round as it gets; one that has not may have cracks.
+constexpr double kRound = 0.6;
+constexpr double kRoundOnceZipped = 0.4;
 /// In h: a shorter loop is too ragged to be told from the end of a tube.
 constexpr double kMinRim = 20.0;
 /// In h: inside of a fill is what lies farther from the loop than this, the reach of what was
@@ -64,13 +66,14 @@ LoopGeometry geometry_of(const std::vector<Vec3>& positions, const CornerTable& 
 
 /// A round loop at which the surface ends, or the outline of a sheet, over which a fill would fold
 /// back.
-bool is_rim(const LoopGeometry& loop, double pixel_size) {
+bool is_rim(const LoopGeometry& loop, bool is_zipped, double pixel_size) {
   constexpr double kFourPi = 12.566370614359172954;
   const double area = glm::length(loop.across);
   const double leads_into = glm::dot(loop.across, loop.beside);
   if (loop.perimeter > kMinOutline * pixel_size && leads_into < kFoldsBack * area) return true;
   if (loop.perimeter < kMinRim * pixel_size) return false;
-  if (area * kFourPi < kRound * loop.perimeter * loop.perimeter) return false;
+  const double round = is_zipped ? kRoundOnceZipped : kRound;
+  if (area * kFourPi < round * loop.perimeter * loop.perimeter) return false;
   return leads_into < kLeadsInto * area;
 }
 
@@ -119,7 +122,7 @@ std::optional<FillShape> choose_fill(const std::vector<Vec3>& positions, const C
   const HoleFill fill = fill_loop(positions, table, loop, FillShape::smooth, h);
   const Inside inside = look_inside(geometry, fill, cloud, h);
   if (inside.has_points) return FillShape::smooth;
-  if (is_rim(geometry, h)) return std::nullopt;
+  if (is_rim(geometry, is_zipped, h)) return std::nullopt;
   if (inside.width < options.narrow_width * h) return FillShape::flat;
   if (!is_zipped) return FillShape::zipped;
   const double limit = options.max_hole_perimeter * h;
