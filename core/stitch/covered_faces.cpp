@@ -15,9 +15,6 @@ constexpr std::size_t kItemsPerBlock = 4096;
 /// A face that looks away counts as seen on edge up to 10 degrees: sin 10.
 constexpr double kOnEdgeCosine = 0.17;
 
-/// The depth of the sheet between samples is known to half a pixel side.
-constexpr double kSampleTolerance = 0.5;
-
 /// One face in the image, in pixels (see in_pixels).
 struct FaceImage {
   std::array<Vec2, 3> corners;
@@ -84,28 +81,6 @@ struct Finder {
   const PatchSheet& sheet;
   const CoveredFacesOptions& options;
 
-  [[nodiscard]] double tolerance(double stretch, double depth) const {
-    const double side = sheet.image().view().pixel_size(depth);
-    return side * (options.band * stretch + kSampleTolerance);
-  }
-
-  /// Whether the depth belongs to the patch's sheet in a cell.
-  [[nodiscard]] bool is_in_band(Pixel cell, double depth) const {
-    double sum = 0.0;
-    double stretch = 0.0;
-    int known = 0;
-    for (int k = 0; k < 4; ++k) {
-      const SheetSample& sample = sheet[{cell.x + k % 2, cell.y + k / 2}];
-      if (sample.ring == SheetSample::kUnknown) continue;
-      sum += sample.depth;
-      stretch = std::max(stretch, sample.stretch);
-      ++known;
-    }
-    if (known == 0) return false;
-    const double expected = sum / known;
-    return std::abs(depth - expected) <= tolerance(stretch, expected);
-  }
-
   [[nodiscard]] bool looks_at_viewer(const Triangle& face) const {
     return orientation(image.points[face[0]], image.points[face[1]], image.points[face[2]]) > 0;
   }
@@ -154,7 +129,7 @@ struct Finder {
       for (int x = first; x <= last; ++x) {
         if (!sheet.has_cell({x, y})) continue;
         const double depth = shape.depth_at({x + 0.5, y + 0.5}, image.depths[face[0]]);
-        if (is_in_band({x, y}, depth)) return true;
+        if (sheet.is_in_band({x, y}, depth, options.band)) return true;
       }
     }
     return false;
@@ -184,7 +159,7 @@ struct Finder {
     const SheetSample& sample = sheet[nearest_pixel(point)];
     if (sample.ring == SheetSample::kUnknown) return false;
     const double deviation = std::abs(image.depths[vertex] - sample.depth);
-    return deviation <= tolerance(sample.stretch, sample.depth);
+    return deviation <= sheet.tolerance(sample.stretch, sample.depth, options.band);
   }
 };
 

@@ -144,6 +144,27 @@ bool PatchSheet::has_edge(Pixel from, Pixel to) const {
                 : cell_has({from.x, to.y}, kUpperTriangle, kNeither);
 }
 
+double PatchSheet::tolerance(double stretch, double depth, double band) const {
+  constexpr double kSampleTolerance = 0.5;  // pixel sides
+  return image_->view().pixel_size(depth) * (band * stretch + kSampleTolerance);
+}
+
+bool PatchSheet::is_in_band(Pixel cell, double depth, double band) const {
+  double sum = 0.0;
+  double stretch = 0.0;
+  int known = 0;
+  for (int k = 0; k < 4; ++k) {
+    const SheetSample& sample = (*this)[{cell.x + k % 2, cell.y + k / 2}];
+    if (sample.ring == SheetSample::kUnknown) continue;
+    sum += sample.depth;
+    stretch = std::max(stretch, sample.stretch);
+    ++known;
+  }
+  if (known == 0) return false;
+  const double expected = sum / known;
+  return std::abs(depth - expected) <= tolerance(stretch, expected, band);
+}
+
 double PatchSheet::depth_at(const Vec2& place, Pixel pixel) const {
   const SheetSample& sample = (*this)[pixel];
   const double side = image_->view().pixel_size(sample.depth);

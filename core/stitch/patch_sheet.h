@@ -53,6 +53,15 @@ class PatchSheet {
   /// @pre the pixels are neighbours
   [[nodiscard]] bool has_edge(Pixel from, Pixel to) const;
 
+  /// Whether a depth somewhere in the cell belongs to the sheet: it differs from the mean of what
+  /// is known at the cell's corners by at most `band` pixel sides times the largest stretch there,
+  /// and half a pixel side more, since depths are compared between samples. False where nothing is
+  /// known.
+  [[nodiscard]] bool is_in_band(Pixel cell, double depth, double band) const;
+
+  /// Half width of that band at a sample, model units.
+  [[nodiscard]] double tolerance(double stretch, double depth, double band) const;
+
   /// Depth of the sheet at a place near the pixel. @pre the sheet is known at the pixel
   [[nodiscard]] double depth_at(const Vec2& place, Pixel pixel) const;
 

@@ -19,28 +19,8 @@ constexpr std::array<std::array<double, 3>, 7> kPlaces{{{1.0 / 3.0, 1.0 / 3.0, 1
                                                         {0.01, 0.50, 0.49},
                                                         {0.49, 0.01, 0.50}}};
 
-/// Old and new surface may differ by this much more than the band, and by half a pixel side,
-/// since depths are compared between samples.
+/// Old and new surface may differ by this much more than the band: both have errors.
 constexpr double kDepthShare = 1.5;
-constexpr double kSampleTolerance = 0.5;
-
-bool is_in_band(const PatchSheet& patch, const Vec2& place, double depth, double band) {
-  const Pixel cell{static_cast<int>(std::floor(place.x)), static_cast<int>(std::floor(place.y))};
-  double sum = 0.0;
-  double stretch = 0.0;
-  int known = 0;
-  for (int k = 0; k < 4; ++k) {
-    const SheetSample& sample = patch[{cell.x + k % 2, cell.y + k / 2}];
-    if (sample.ring == SheetSample::kUnknown) continue;
-    sum += sample.depth;
-    stretch = std::max(stretch, sample.stretch);
-    ++known;
-  }
-  if (known == 0) return false;
-  const double expected = sum / known;
-  const double side = patch.image().view().pixel_size(expected);
-  return std::abs(depth - expected) <= side * (kDepthShare * band * stretch + kSampleTolerance);
-}
 
 bool is_covered(const SheetMesh& sheet, SheetMesh::FaceHandle face, const PatchSheet& patch,
                 double band) {
@@ -52,7 +32,8 @@ bool is_covered(const SheetMesh& sheet, SheetMesh::FaceHandle face, const PatchS
       place += weights[k] * in_pixels(sheet.point(corners[k]));
       depth += weights[k] * sheet.depth(corners[k]);
     }
-    return patch.covers(place) && is_in_band(patch, place, depth, band);
+    const Pixel cell{static_cast<int>(std::floor(place.x)), static_cast<int>(std::floor(place.y))};
+    return patch.covers(place) && patch.is_in_band(cell, depth, kDepthShare * band);
   });
 }
 
