@@ -89,9 +89,9 @@ def beyond(vertices, faces, edges, points, h):
         distance = np.linalg.norm(offset, axis=1)
         on_edge = distance <= nearest[i] + NEGLIGIBLE * h
         over = np.einsum('ij,ij->i', offset, outward[edge])
-        # Beyond both edges of a corner counts; above the sheet beside an edge does not.
+        # Above the sheet beside an edge is not beyond it; at a corner, beyond one edge is enough.
         if on_edge.any():
-            result[i] = max(0.0, over[on_edge].min())
+            result[i] = max(0.0, over[on_edge].max())
     return result
 
 

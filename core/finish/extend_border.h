@@ -9,24 +9,27 @@
 namespace rangezip {
 
 struct ExtendBorderOptions {
-  double pixel_size = 0.0;  ///< h, model units; positive
-  int rounds = 3;           ///< of moving every border vertex
+  double pixel_size = 0.0;        ///< h, model units; positive
+  std::size_t min_component = 0;  ///< pieces with fewer faces that cutting leaves are dropped
+  int max_rounds = 100;           ///< of one step at each border edge that needs one, at most
 };
 
 struct ExtendBorderReport {
-  std::size_t moves = 0;           ///< of a vertex, in all rounds
-  std::size_t reverted_moves = 0;  ///< in part or in full: faces would have crossed
+  std::size_t steps = 0;           ///< that were taken
+  std::size_t reverted_steps = 0;  ///< that were taken back: faces would have crossed
+  std::size_t edges_left = 0;      ///< border edges that points of the cloud still lie beyond
 };
 
-/// Moves the border of an open surface out to where the points of the cloud end: scans end at the
-/// centres of pixels, up to a pixel inside of the data's edge. A border vertex moves along the
-/// surface, away from its faces, until the border passes the farthest point that lies beyond one of
-/// its two border edges, and onto the plane of the points there. A point counts if it is at most
-/// h beyond, near the plane of the edge's face, nearer to the edge than to other parts of the mesh,
-/// and not alone. A move that would turn a face, make a sliver or let faces cross is not done.
-/// Without self-intersections before there are none after. Topology stays; a mesh without border
-/// does not change.
-/// Cost: linear; border vertices are visited in parallel.
+/// Brings the border of an open surface out to where the points of the cloud end: scans end at the
+/// centres of pixels, up to a pixel inside of the data's edge, and more where nothing could be
+/// stitched. In each round every border edge that points lie beyond (core/finish/border_gaps.h)
+/// at most h away takes one step to the farthest of them, the one that makes the best triangles
+/// (core/finish/border_step.h). One that turns a face too far or makes a needle is not taken, one
+/// that lets faces cross is taken back; then the next best is tried, and when none is left the
+/// edge's face is cut away, with more of its neighbours each time that it is the same point.
+/// Without self-intersections before there are none after; the surface stays manifold and oriented;
+/// a mesh without border, or without points beyond it, does not change.
+/// Cost: some linear passes over the mesh a round; rounds end when nothing is left to do.
 /// @param cloud without points nothing happens
 /// @pre oriented, manifold (core/finish/clean_topology.h)
 ExtendBorderReport extend_border(TriangleMesh& mesh, const PointGrid& cloud,

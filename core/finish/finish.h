@@ -34,7 +34,7 @@ struct FinishReport {
   std::size_t collapsed_edges = 0;
   std::size_t flipped_edges = 0;
   std::size_t snapped_vertices = 0;
-  std::size_t border_moves = 0;  ///< of border vertices, out to the end of the cloud
+  std::size_t border_steps = 0;  ///< that brought the border out to the end of the cloud
   std::size_t dropped_components = 0;
   std::size_t dropped_faces = 0;
 };

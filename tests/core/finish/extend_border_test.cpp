@@ -5,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include "core/finish/border_gaps.h"
 #include "core/finish/self_intersection.h"
 #include "core/mesh/mesh_report.h"
 #include "tests/core/finish/shapes.h"
@@ -70,25 +71,32 @@ void require_clean(const TriangleMesh& mesh) {
   REQUIRE(self_intersections(mesh).empty());
 }
 
-TEST_CASE("extend_border moves the edge of a sheet to the end of the points") {
+/// Of points of the cloud within h; what lies beyond by less than a thousandth does not matter.
+void require_no_gaps(const TriangleMesh& mesh, const PointGrid& cloud) {
+  const CornerTable table(mesh.triangles, mesh.positions.size());
+  const FaceGrid faces(mesh, table, kH);
+  REQUIRE(find_border_gaps(mesh, table, faces, cloud, {kH, 1.001e-3 * kH}).empty());
+}
+
+TEST_CASE("after extend_border no point within a pixel lies beyond the edge of a sheet") {
   const std::uint64_t seed = GENERATE(1U, 2U, 3U);
   CAPTURE(seed);
   const std::vector<Vec3> points = square_points(seed);
-  TriangleMesh mesh = sheet(1.0 - 0.8 * kH);
-  // 0.55 h all around, 8 / h pixels long, hold so many of the points.
+  const double margin = GENERATE(0.8, 2.5);  // pixels between the sheet's edge and the points'
+  CAPTURE(margin);
+  TriangleMesh mesh = sheet(1.0 - margin * kH);
   REQUIRE(count_beyond(mesh, points, 0.25 * kH) > 300);
   const ExtendBorderReport report = extend_border(mesh, grid_of(points), {kH});
-  REQUIRE(report.moves >= 4 * kN / 2);
-  // Not all: where moves would turn a face, the border stays.
-  REQUIRE(count_beyond(mesh, points, 0.25 * kH) < 300 / 100);
-  REQUIRE(count_beyond(mesh, points, 0.1 * kH) < 300 / 20);
+  REQUIRE(report.steps >= 4 * kN / 2);
+  REQUIRE(report.edges_left == 0);
+  require_no_gaps(mesh, grid_of(points));
+  REQUIRE(count_beyond(mesh, points, 0.01 * kH) == 0);
   require_clean(mesh);
-  // A vertex goes to the foot of a point q on a line, which is on the sphere with q - v as
-  // diameter: at most (|q - v| - over) / 2 past the point, and points are less than h aside.
-  const double limit = 1.0 + 0.5 * kH;
+  REQUIRE(report_mesh(mesh).boundary_loops == 1);
+  // Vertices go to points, so none goes past them.
   for (const Vec3& p : mesh.positions) {
-    REQUIRE(std::abs(p.x) <= limit);
-    REQUIRE(std::abs(p.y) <= limit);
+    REQUIRE(std::abs(p.x) <= 1.0 + 1e-6);
+    REQUIRE(std::abs(p.y) <= 1.0 + 1e-6);
     REQUIRE(std::abs(p.z) < 1e-6 * kH);  // the points are stored as floats
   }
 }
@@ -103,35 +111,31 @@ TEST_CASE("extend_border follows a curved surface") {
   }
   TriangleMesh mesh = testing::sphere(kN);
   testing::cut_where(mesh, [](const Vec3& p) { return p.z > 0.2 - 0.3 * kH; });
-  const TriangleMesh before = mesh;
-  REQUIRE(extend_border(mesh, grid_of(points), {kH}).moves > 0);
+  REQUIRE(extend_border(mesh, grid_of(points), {kH}).steps > 0);
   require_clean(mesh);
-  double highest_before = -1.0, highest = -1.0;
-  for (const Vec3& p : before.positions)
-    highest_before = std::max(highest_before, p.z);
+  require_no_gaps(mesh, grid_of(points));
+  double highest = -1.0;
   for (const Vec3& p : mesh.positions) {
     highest = std::max(highest, p.z);
-    // Points within 1.2 h of a place on a sphere are up to 0.72 h^2 below its tangent plane.
-    REQUIRE(std::abs(glm::length(p) - 1.0) < 0.72 * kH * kH);
+    // On a point, or part of the way from the border to it: a chord of at most 2 h is up to
+    // h^2 / 2 below the sphere.
+    REQUIRE(glm::length(p) < 1.0 + 1e-6);
+    REQUIRE(glm::length(p) > 1.0 - 0.5 * kH * kH);
   }
-  REQUIRE(highest > highest_before);
-  REQUIRE(highest < 0.2 + 0.5 * kH);  // as on the sheet
+  REQUIRE(highest > 0.2 - 0.1 * kH);
+  REQUIRE(highest <= 0.2 + 1e-6);
 }
 
 TEST_CASE("a border where the points end already stays") {
   std::vector<Vec3> points = square_points(1);
   TriangleMesh mesh = sheet(1.0);
   SECTION("and no other points are there") {}
-  SECTION("and single points lie beyond it") {
+  SECTION("and single points lie farther than a pixel beyond it") {
     for (int i = -5; i <= 5; ++i)
-      points.emplace_back(1.0 + 0.9 * kH, 4.0 * i * kH, 0.0);
-  }
-  SECTION("and another sheet is above it") {
-    for (Vec3 p : square_points(2))
-      points.emplace_back(p.x + 0.5, p.y, 0.6 * kH);
+      points.emplace_back(1.0 + 1.1 * kH, 4.0 * i * kH, 0.0);
   }
   const TriangleMesh before = mesh;
-  REQUIRE(extend_border(mesh, grid_of(points), {kH}).moves == 0);
+  REQUIRE(extend_border(mesh, grid_of(points), {kH}).steps == 0);
   REQUIRE(mesh == before);
 }
 
@@ -157,30 +161,38 @@ TEST_CASE("points of the sheet on the other side of a crack do not count") {
   REQUIRE(mesh == before);
 }
 
-TEST_CASE("extend_border takes moves back that let faces cross") {
-  TriangleMesh mesh = sheet(1.0 - 0.8 * kH);
-  // A wall of two large faces, without a vertex near, in the way of one side of the sheet.
-  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-  const double x = 1.0 - 0.4 * kH;
-  for (const Vec3 p : {Vec3(x, -2, -1), Vec3(x, 2, -1), Vec3(x, 2, 2), Vec3(x, -2, 2)})
-    mesh.positions.push_back(p);
-  mesh.triangles.push_back({first, first + 1, first + 2});
-  mesh.triangles.push_back({first, first + 2, first + 3});
+TEST_CASE("extend_border takes steps back that let faces cross") {
+  const double half = 1.0 - 0.8 * kH;
+  TriangleMesh mesh = sheet(half);
+  // Beside the way from each edge of one side to its point stands a needle, so far aside that the
+  // edge is still what is nearest to the point, but in the way of a face up to it.
+  const double edge = 2.0 * half / kN;
+  std::vector<Vec3> points;
+  for (int i = 0; i < kN; ++i) {
+    const double middle = -half + (i + 0.5) * edge;
+    points.emplace_back(half + 0.3 * edge, middle, 0.0);
+    const Vec3 needle(half + 0.1 * edge, middle + 0.31 * edge, -0.4 * edge);
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.push_back(needle);
+    mesh.positions.push_back(needle + Vec3(0.001 * edge, 0.0, 0.0));
+    mesh.positions.push_back(needle + Vec3(0.0, 0.0, 0.8 * edge));
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
   REQUIRE(self_intersections(mesh).empty());
-  const ExtendBorderReport report = extend_border(mesh, grid_of(square_points(4)), {kH});
-  REQUIRE(report.reverted_moves > 0);
-  REQUIRE(report.moves >= 3 * kN / 2);  // the other three sides
+  const ExtendBorderReport report = extend_border(mesh, grid_of(points), {kH});
+  REQUIRE(report.reverted_steps > 0);
+  REQUIRE(report.steps > 0);
   require_clean(mesh);
 }
 
 TEST_CASE("extend_border leaves a closed mesh alone, and any mesh without a cloud") {
   TriangleMesh mesh = testing::cube(kN);
   const TriangleMesh before = mesh;
-  REQUIRE(extend_border(mesh, grid_of(square_points(5)), {kH}).moves == 0);
+  REQUIRE(extend_border(mesh, grid_of(square_points(5)), {kH}).steps == 0);
   REQUIRE(mesh == before);
   TriangleMesh open = sheet(0.9);
   const TriangleMesh open_before = open;
-  REQUIRE(extend_border(open, PointGrid({}, kRegion, kH), {kH}).moves == 0);
+  REQUIRE(extend_border(open, PointGrid({}, kRegion, kH), {kH}).steps == 0);
   REQUIRE(open == open_before);
 }
 

@@ -1,0 +1,112 @@
+#include "core/finish/face_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rangezip {
+namespace {
+
+/// Bounds the memory of the grid: cells for each face, and for a start.
+constexpr double kCellsPerFace = 8.0;
+constexpr double kFreeCells = 4096.0;
+
+}  // namespace
+
+FaceGrid::FaceGrid(const TriangleMesh& mesh, const CornerTable& table, double reach) : mesh_(mesh) {
+  const Box bounds = bounds_of(mesh);
+  origin_ = bounds.lower;
+  const Vec3 size = bounds.upper - bounds.lower;
+  double cell = reach;
+  for (;;) {
+    double cells = 1.0;
+    for (int axis = 0; axis < 3; ++axis)
+      cells *= std::floor(size[axis] / cell) + 1.0;
+    if (cells <= kCellsPerFace * static_cast<double>(mesh.triangles.size()) + kFreeCells) break;
+    constexpr double kGrowth = 1.25;
+    cell *= kGrowth;
+  }
+  cells_per_unit_ = 1.0 / cell;
+  for (int axis = 0; axis < 3; ++axis) {
+    dims_[static_cast<std::size_t>(axis)] =
+        static_cast<std::size_t>(size[axis] * cells_per_unit_) + 1;
+  }
+
+  const std::size_t cell_count = dims_[0] * dims_[1] * dims_[2];
+  std::vector<std::uint8_t> is_asked(cell_count, 0);
+  // A place within reach of the border asks for faces within reach of itself.
+  const Vec3 margin(2.0 * reach);
+  for (std::uint32_t c = 0; c < table.corner_count(); ++c) {
+    if (table.is_deleted(c / 3) || table.across(c) != CornerTable::kNone) continue;
+    const Vec3& a = mesh.positions[table.vertex(c)];
+    const Vec3& b = mesh.positions[table.head(c)];
+    for_each_cell({glm::min(a, b) - margin, glm::max(a, b) + margin},
+                  [&](std::size_t at) { is_asked[at] = 1; });
+  }
+  starts_.assign(cell_count + 1, 0);
+  std::vector<std::uint32_t> near;
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    bool is_near = false;
+    for_each_cell(box_of(f), [&](std::size_t at) {
+      starts_[at + 1] += is_asked[at];
+      is_near = is_near || is_asked[at] != 0;
+    });
+    if (is_near) near.push_back(f);
+  }
+  for (std::size_t c = 1; c <= cell_count; ++c)
+    starts_[c] += starts_[c - 1];
+  entries_.resize(starts_.back());
+  for (const std::uint32_t f : near) {
+    for_each_cell(box_of(f), [&](std::size_t at) {
+      if (is_asked[at] != 0) entries_[starts_[at]++] = f;
+    });
+  }
+  // Filling moved every start to the next one's place.
+  std::copy_backward(starts_.begin(), starts_.end() - 1, starts_.end());
+  starts_.front() = 0;
+}
+
+bool FaceGrid::has_face_within(const Vec3& place, double distance) const {
+  bool found = false;
+  for_each_cell({place - distance, place + distance}, [&](std::size_t at) {
+    for (std::size_t i = starts_[at]; i < starts_[at + 1] && !found; ++i) {
+      const Triangle& t = mesh_.triangles[entries_[i]];
+      const Vec3 offset = closest_point_on_triangle(place, mesh_.positions[t[0]],
+                                                    mesh_.positions[t[1]], mesh_.positions[t[2]]) -
+                          place;
+      found = glm::dot(offset, offset) < distance * distance;
+    }
+  });
+  return found;
+}
+
+FaceGrid::Cell FaceGrid::cell_at(const Vec3& place) const {
+  Cell cell{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    const double along = (place[axis] - origin_[axis]) * cells_per_unit_;
+    cell[a] = along > 0.0
+                  ? static_cast<std::size_t>(std::min(along, static_cast<double>(dims_[a] - 1)))
+                  : 0;
+  }
+  return cell;
+}
+
+template <class Visit>
+void FaceGrid::for_each_cell(const Box& box, Visit visit) const {
+  const Cell lower = cell_at(box.lower), upper = cell_at(box.upper);
+  for (std::size_t z = lower[2]; z <= upper[2]; ++z) {
+    for (std::size_t y = lower[1]; y <= upper[1]; ++y) {
+      const std::size_t row = (z * dims_[1] + y) * dims_[0];
+      for (std::size_t x = lower[0]; x <= upper[0]; ++x)
+        visit(row + x);
+    }
+  }
+}
+
+Box FaceGrid::box_of(std::uint32_t face) const {
+  const Triangle& t = mesh_.triangles[face];
+  const Vec3 &a = mesh_.positions[t[0]], &b = mesh_.positions[t[1]], &c = mesh_.positions[t[2]];
+  return {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))};
+}
+
+}  // namespace rangezip

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/finish/corner_table.h"
+#include "core/mesh/triangle_mesh.h"
+
+namespace rangezip {
+
+/// The faces near the border of an open mesh, sorted into the cubes of a uniform grid, for asking
+/// whether another part of the mesh is nearer to a place than the border is.
+class FaceGrid {
+ public:
+  /// Cost: linear in the faces of the mesh.
+  /// @param reach places farther than this from the border will not be asked for, model units;
+  ///     positive
+  FaceGrid(const TriangleMesh& mesh, const CornerTable& table, double reach);
+
+  /// Whether a face comes nearer to the place than `distance`, at most the reach.
+  [[nodiscard]] bool has_face_within(const Vec3& place, double distance) const;
+
+ private:
+  using Cell = std::array<std::size_t, 3>;
+
+  [[nodiscard]] Cell cell_at(const Vec3& place) const;
+  template <class Visit>
+  void for_each_cell(const Box& box, Visit visit) const;
+  [[nodiscard]] Box box_of(std::uint32_t face) const;
+
+  const TriangleMesh& mesh_;
+  Vec3 origin_{0.0};
+  double cells_per_unit_ = 1.0;
+  Cell dims_{1, 1, 1};
+  std::vector<std::uint32_t> starts_;  // of each cell in entries_, x fastest
+  std::vector<std::uint32_t> entries_;
+};
+
+}  // namespace rangezip
