@@ -10,6 +10,9 @@
 namespace rangezip {
 namespace {
 
+/// An open component with fewer faces than this part of the largest is a shred.
+constexpr std::size_t kShredShare = 500;
+
 bool repeats_corner(const Triangle& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
@@ -142,23 +145,31 @@ DroppedComponents drop_small_components(TriangleMesh& mesh, std::size_t min_face
   const CornerTable table(mesh.triangles, mesh.positions.size());
   const std::vector<std::uint32_t> component = components_of(table);
   std::vector<std::size_t> sizes;
-  for (const std::uint32_t k : component) {
-    if (k >= sizes.size()) sizes.resize(k + 1, 0);
-    ++sizes[k];
+  std::vector<std::uint8_t> is_open;
+  for (std::uint32_t c = 0; c < table.corner_count(); ++c) {
+    const std::uint32_t k = component[c / 3];
+    if (k >= sizes.size()) {
+      sizes.resize(k + 1, 0);
+      is_open.resize(k + 1, 0);
+    }
+    if (c % 3 == 0) ++sizes[k];
+    if (table.across(c) == CornerTable::kNone) is_open[k] = 1;
   }
   DroppedComponents result;
   const auto largest = std::max_element(sizes.begin(), sizes.end());
-  for (auto size = sizes.begin(); size != sizes.end(); ++size) {
-    if (*size >= min_faces || size == largest) continue;
+  std::vector<std::uint8_t> goes(sizes.size(), 0);
+  for (std::size_t k = 0; k < sizes.size(); ++k) {
+    const bool is_shred = min_faces > 0 && is_open[k] != 0 && kShredShare * sizes[k] < *largest;
+    if (sizes[k] >= min_faces && !is_shred) continue;
+    if (sizes.begin() + static_cast<std::ptrdiff_t>(k) == largest) continue;
+    goes[k] = 1;
     ++result.components;
-    result.faces += *size;
+    result.faces += sizes[k];
   }
   if (result.components == 0) return result;
-  const auto kept = static_cast<std::uint32_t>(largest - sizes.begin());
   std::vector<std::uint8_t> dropped(mesh.triangles.size(), 0);
-  for (std::size_t f = 0; f < dropped.size(); ++f) {
-    dropped[f] = sizes[component[f]] < min_faces && component[f] != kept ? 1 : 0;
-  }
+  for (std::size_t f = 0; f < dropped.size(); ++f)
+    dropped[f] = goes[component[f]];
   drop_faces(mesh, dropped);
   return result;
 }

@@ -17,8 +17,11 @@ struct DroppedComponents {
   std::size_t faces = 0;
 };
 
-/// Drops the components (joined over shared edges) with fewer than `min_faces` faces; the largest
-/// one (the earliest of equals) always stays. Positions stay. @pre oriented and manifold
+/// Drops the components (joined over shared edges) with fewer than `min_faces` faces, and shreds:
+/// open ones with less than a five-hundredth of the faces of the largest component, which are
+/// pieces of walls in pockets that no view connects. The largest one (the earliest of equals)
+/// always stays. With 0 all stay. Positions stay.
+/// @pre oriented and manifold
 DroppedComponents drop_small_components(TriangleMesh& mesh, std::size_t min_faces);
 
 }  // namespace rangezip

@@ -108,16 +108,13 @@ void drop_near(const Vec3& direction, std::vector<Vec3>& candidates) {
 
 }  // namespace
 
-std::vector<Vec3> plan_fill_views(const TriangleMesh& mesh, double min_loop, int max_views,
-                                  std::span<const Vec3> used) {
+std::vector<Vec3> plan_fill_views(const TriangleMesh& mesh, double min_loop, int max_views) {
   constexpr int kCandidates = 200;
   constexpr double kMinGrantedLoops = 0.5;  // a shortest loop, seen straight on, grants 0.6
   constexpr double kServedCosine = 0.75;    // wishes within 41 degrees of a view are served,
   constexpr double kLeftWhenServed = 0.15;  // and this share of them is left
   std::vector<Wish> wishes = boundary_wishes(mesh, min_loop);
   std::vector<Vec3> candidates = sphere_directions(kCandidates);
-  for (const Vec3& direction : used)
-    drop_near(direction, candidates);
 
   std::vector<Vec3> views;
   while (static_cast<int>(views.size()) < max_views && !wishes.empty()) {

@@ -44,9 +44,8 @@ struct ViewPlan {
 /// Up to `max_views` directions that look into the boundary loops of `mesh` that are longer than
 /// `min_loop` (model units): greedy over the normals of the faces at the loops, in decreasing order
 /// of what they may fill (the automatic green lasso). O(faces).
-/// @param used directions that were tried before; none within 13 degrees of them is returned
 /// @pre the mesh is oriented and manifold
 [[nodiscard]] std::vector<Vec3> plan_fill_views(const TriangleMesh& mesh, double min_loop,
-                                                int max_views, std::span<const Vec3> used = {});
+                                                int max_views);
 
 }  // namespace rangezip

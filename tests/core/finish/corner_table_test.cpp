@@ -132,6 +132,25 @@ TEST_CASE("components are numbered in order of their first face") {
   REQUIRE(kept.triangles.size() == other.triangles.size());
 }
 
+TEST_CASE("an open piece of less than a five-hundredth of the mesh is a shred, a closed one is not") {
+  const TriangleMesh large = testing::sphere(24);  // 6912 faces: shreds have up to 13
+  const bool is_open = GENERATE(false, true);
+  CAPTURE(is_open);
+  TriangleMesh mesh = large;
+  TriangleMesh piece = testing::cube(1);
+  if (is_open) piece.triangles.pop_back();
+  const auto shift = static_cast<std::uint32_t>(mesh.positions.size());
+  for (const Vec3& p : piece.positions)
+    mesh.positions.push_back(p + Vec3(5, 0, 0));
+  for (const Triangle& t : piece.triangles)
+    mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+  TriangleMesh kept = mesh;
+  REQUIRE(drop_small_components(kept, 0).components == 0);
+  REQUIRE(kept == mesh);
+  REQUIRE(drop_small_components(kept, 5).components == (is_open ? 1U : 0U));
+  REQUIRE(kept.triangles == (is_open ? large : mesh).triangles);
+}
+
 TEST_CASE("clean_topology makes any soup of faces manifold and leaves manifolds alone") {
   TriangleMesh sphere = testing::sphere(5);
   REQUIRE(clean_topology(sphere) == 0);

@@ -70,7 +70,7 @@ TEST_CASE("plan_fill_views see a slit around an edge from both sides") {
   CHECK(glm::length(sum) < 0.6 * static_cast<double>(views.size()));
 }
 
-TEST_CASE("plan_fill_views leave closed meshes, short loops and used directions alone") {
+TEST_CASE("plan_fill_views leave closed meshes and short loops alone") {
   CHECK(plan_fill_views(shapes::to_mesh(shapes::sphere()), 0.01, 6).empty());
   CHECK(plan_fill_views(TriangleMesh{}, 0.01, 6).empty());
   const TriangleMesh mesh = punched_sphere({{Vec3{0, 0, 1}, 0.95}});
@@ -78,12 +78,6 @@ TEST_CASE("plan_fill_views leave closed meshes, short loops and used directions 
   CHECK(plan_fill_views(mesh, 1.001 * loop, 6).empty());
   CHECK_FALSE(plan_fill_views(mesh, 0.999 * loop, 6).empty());
   CHECK(plan_fill_views(mesh, 0.5, 0).empty());
-
-  const std::vector<Vec3> first = plan_fill_views(mesh, 0.5, 2);
-  for (const Vec3& view : plan_fill_views(mesh, 0.5, 6, first)) {
-    for (const Vec3& used : first)
-      CHECK(glm::dot(view, used) <= 0.975);
-  }
 }
 
 }  // namespace rangezip
