@@ -132,7 +132,8 @@ TEST_CASE("components are numbered in order of their first face") {
   REQUIRE(kept.triangles.size() == other.triangles.size());
 }
 
-TEST_CASE("an open piece of less than a five-hundredth of the mesh is a shred, a closed one is not") {
+TEST_CASE(
+    "an open piece of less than a five-hundredth of the mesh is a shred, a closed one is not") {
   const TriangleMesh large = testing::sphere(24);  // 6912 faces: shreds have up to 13
   const bool is_open = GENERATE(false, true);
   CAPTURE(is_open);
