@@ -224,6 +224,18 @@ void collect_cells(const Triangles& triangles, const CellGrid& grid, const CellL
   append_blocks(blocks, pairs);
 }
 
+/// Pairs of one large triangle; of two large ones the lower collects their pair.
+void collect_all_of(const Triangles& triangles, std::uint32_t i,
+                    std::span<const std::uint8_t> is_large, std::span<const std::uint8_t> changed,
+                    std::vector<Pair>& pairs) {
+  for (std::uint32_t j = 0; j < triangles.size(); ++j) {
+    if (j == i || triangles.is_degenerate_at(j) || (is_large[j] != 0 && j < i)) continue;
+    if (!boxes_meet(triangles.box(i), triangles.box(j))) continue;
+    if (!changed.empty() && changed[i] == 0 && changed[j] == 0) continue;
+    if (triangles.meet(i, j)) pairs.emplace_back(std::min(i, j), std::max(i, j));
+  }
+}
+
 void collect_large(const Triangles& triangles, std::span<const std::uint32_t> large,
                    std::span<const std::uint8_t> changed, std::vector<Pair>& pairs) {
   if (large.empty()) return;
@@ -233,13 +245,7 @@ void collect_large(const Triangles& triangles, std::span<const std::uint32_t> la
   std::vector<std::vector<Pair>> blocks(large.size());
   parallel_for(large.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      const std::uint32_t i = large[k];
-      for (std::uint32_t j = 0; j < triangles.size(); ++j) {
-        if (j == i || triangles.is_degenerate_at(j) || (is_large[j] != 0 && j < i)) continue;
-        if (!boxes_meet(triangles.box(i), triangles.box(j))) continue;
-        if (!changed.empty() && changed[i] == 0 && changed[j] == 0) continue;
-        if (triangles.meet(i, j)) blocks[k].emplace_back(std::min(i, j), std::max(i, j));
-      }
+      collect_all_of(triangles, large[k], is_large, changed, blocks[k]);
     }
   });
   append_blocks(blocks, pairs);

@@ -223,7 +223,7 @@ const PlyElement* PlyHeader::find(const std::string& name) const {
 }
 
 PlyHeader read_ply_header(const FileBytes& file) {
-  const PlyHeader header = HeaderReader(file).read();
+  PlyHeader header = HeaderReader(file).read();
   check_counts(file, header);
   return header;
 }

@@ -412,7 +412,8 @@ class BinaryReader : private PlyReader {
     const double count = load_number(property.count_type, at_, is_swapped_);
     const char* const place = at_;
     at_ += size_of(property.count_type);
-    if (count < 0.0 || count > static_cast<double>(left() / size_of(property.type))) {
+    const std::size_t room = left() / size_of(property.type);
+    if (count < 0.0 || count > static_cast<double>(room)) {
       file_.fail_at_byte(place, "the list " + quote(property.name) + " of " +
                                     std::to_string(static_cast<std::int64_t>(count)) +
                                     " items does not fit in the file");

@@ -97,7 +97,7 @@ class Document {
     return *member;
   }
 
-  std::string text(const std::string& name, const Json& member) const {
+  [[nodiscard]] std::string text(const std::string& name, const Json& member) const {
     if (!member.is_string()) refuse(at(name), "must be a text", member);
     return member.get<std::string>();
   }

@@ -122,7 +122,7 @@ std::string one_line(const Json& json) {
 
 /// What fits stays on one line; the rest has a line for each member.
 std::string pretty_at(const Json& json, const std::string& indent, std::size_t column) {
-  const std::string line = one_line(json);
+  std::string line = one_line(json);
   if (column + line.size() < kLineWidth || !json.is_structured() || json.empty()) return line;
   const std::string inner = indent + "  ";
   const bool is_object = json.is_object();

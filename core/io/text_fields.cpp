@@ -67,7 +67,7 @@ std::string_view TextLines::next_filled() {
   while (next(line)) {
     if (line.find_first_not_of(" \t\r") != std::string_view::npos) return line;
   }
-  return {end_, 0};
+  return rest();  // empty, at the end of the text
 }
 
 bool parse_number(const char*& at, const char* end, double& value, char separator) {

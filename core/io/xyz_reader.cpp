@@ -56,31 +56,37 @@ std::vector<std::string_view> split(std::string_view line, char separator) {
   return fields;
 }
 
+void skip_blanks(const char*& at, const char* end) {
+  while (at != end && is_blank(*at))
+    ++at;
+}
+
+/// Moves over a column that is not read.
+void skip_column(const char*& at, const char* end, char separator) {
+  while (at != end && *at != separator && !(separator == ' ' && is_blank(*at)))
+    ++at;
+}
+
 /// Reads the three columns of a line; the others are never looked at.
 /// False if one is missing or no number; `at` is then where reading stopped.
 bool read_columns(const char*& at, const char* end, const Layout& layout, Vec3& position) {
   const std::size_t last = *std::max_element(layout.columns.begin(), layout.columns.end());
   for (std::size_t column = 0; column <= last; ++column) {
-    while (at != end && is_blank(*at))
-      ++at;
+    skip_blanks(at, end);
     const auto axis = std::find(layout.columns.begin(), layout.columns.end(), column);
     if (axis != layout.columns.end()) {
       double& value = position[static_cast<int>(axis - layout.columns.begin())];
       if (!parse_number(at, end, value, layout.separator)) return false;
     } else {
-      while (at != end && *at != layout.separator && !(layout.separator == ' ' && is_blank(*at))) {
-        ++at;
-      }
+      skip_column(at, end, layout.separator);
     }
     if (column == last || layout.separator == ' ') continue;
-    while (at != end && is_blank(*at))
-      ++at;
+    skip_blanks(at, end);
     if (at == end || *at != layout.separator) return false;
     ++at;
   }
   // With another separator than blanks a column holds one number only.
-  while (at != end && is_blank(*at))
-    ++at;
+  skip_blanks(at, end);
   return layout.separator == ' ' || at == end || *at == layout.separator;
 }
 

@@ -114,6 +114,68 @@ std::uint32_t vertex_of(const TriangleMesh& mesh, std::uint32_t corner) {
   return mesh.triangles[corner / 3][corner % 3];
 }
 
+/// What hangs together, as far as the edges seen so far tell.
+struct Pieces {
+  explicit Pieces(const TriangleMesh& mesh)
+      : fans_of(mesh.positions.size(), 0),
+        components(mesh.triangles.size()),
+        fans(3 * mesh.triangles.size()) {}
+
+  std::vector<std::uint32_t> fans_of;   ///< fans of faces per vertex, at first one per corner
+  UnionFind components;                 ///< of faces
+  UnionFind fans;                       ///< of corners
+  std::vector<std::uint32_t> boundary;  ///< corners where an edge of one face starts
+};
+
+/// Enters the corners of the faces without a repeated one, and returns how many these are.
+std::size_t count_faces(const TriangleMesh& mesh, std::span<std::uint32_t> fans_of,
+                        MeshReport& report) {
+  report.faces = mesh.triangles.size();
+  std::size_t proper_faces = 0;
+  for (const Triangle& t : mesh.triangles) {
+    if (has_repeated_corner(t)) {
+      ++report.degenerate_faces;
+      continue;
+    }
+    if (has_no_area(mesh, t)) ++report.degenerate_faces;
+    ++proper_faces;
+    for (const std::uint32_t v : t)
+      ++fans_of[v];
+  }
+  return proper_faces;
+}
+
+/// Joins two faces over their common edge, which starts at corner `first` of one and, turned or
+/// not, at corner `second` of the other.
+void join_over_edge(const TriangleMesh& mesh, std::uint32_t first, std::uint32_t second,
+                    Pieces& pieces, MeshReport& report) {
+  if (pieces.components.join(first / 3, second / 3)) --report.components;
+  const std::uint32_t start = vertex_of(mesh, first);
+  const bool same_way = vertex_of(mesh, second) == start;
+  const std::uint32_t tail = same_way ? second : next_corner(second);
+  const std::uint32_t head = same_way ? next_corner(second) : second;
+  if (pieces.fans.join(first, tail)) --pieces.fans_of[start];
+  if (pieces.fans.join(next_corner(first), head)) --pieces.fans_of[vertex_of(mesh, head)];
+}
+
+void count_edge(const TriangleMesh& mesh, std::span<const HalfEdge> sides, Pieces& pieces,
+                MeshReport& report) {
+  ++report.edges;
+  const std::uint32_t first = sides.front().corner;
+  if (sides.size() == 1) pieces.boundary.push_back(first);
+  if (sides.size() > 2) ++report.nonmanifold_edges;
+  if (sides.size() == 2 && vertex_of(mesh, sides[1].corner) == vertex_of(mesh, first)) {
+    ++report.misoriented_edges;
+  }
+  for (const HalfEdge& side : sides.subspan(1))
+    join_over_edge(mesh, first, side.corner, pieces, report);
+}
+
+std::size_t count_if_more(std::span<const std::uint32_t> counts, std::uint32_t than) {
+  return static_cast<std::size_t>(std::count_if(
+      counts.begin(), counts.end(), [than](std::uint32_t count) { return count > than; }));
+}
+
 /// Loops are counted as the connected pieces of the boundary, where two edges meet only inside
 /// one fan of faces. @param fans corners joined over edges; used up
 void count_loops(const TriangleMesh& mesh, std::span<const std::uint32_t> boundary, UnionFind& fans,
@@ -232,49 +294,18 @@ void check_fans(const TriangleMesh& mesh, const EdgeMap& edges) {
 
 MeshReport report_mesh(const TriangleMesh& mesh) {
   MeshReport report;
-  report.faces = mesh.triangles.size();
-  std::vector<std::uint32_t> fans_of(mesh.positions.size(), 0);  // at first one per corner
-  std::size_t proper_faces = 0;
-  for (const Triangle& t : mesh.triangles) {
-    if (has_repeated_corner(t)) {
-      ++report.degenerate_faces;
-      continue;
-    }
-    if (has_no_area(mesh, t)) ++report.degenerate_faces;
-    ++proper_faces;
-    for (const std::uint32_t v : t)
-      ++fans_of[v];
-  }
-  report.vertices = static_cast<std::size_t>(
-      std::count_if(fans_of.begin(), fans_of.end(), [](std::uint32_t fans) { return fans > 0; }));
+  Pieces pieces(mesh);
+  const std::size_t proper_faces = count_faces(mesh, pieces.fans_of, report);
+  report.vertices = count_if_more(pieces.fans_of, 0);
   report.components = proper_faces;
-
-  UnionFind components(mesh.triangles.size());
-  UnionFind fans(3 * mesh.triangles.size());
-  std::vector<std::uint32_t> boundary;
-  SortedHalfEdges(mesh).for_each_edge([&](std::span<const HalfEdge> sides) {
-    ++report.edges;
-    const std::uint32_t first = sides.front().corner;
-    if (sides.size() == 1) boundary.push_back(first);
-    if (sides.size() > 2) ++report.nonmanifold_edges;
-    const auto start = vertex_of(mesh, first);
-    if (sides.size() == 2 && vertex_of(mesh, sides[1].corner) == start) ++report.misoriented_edges;
-    for (const HalfEdge& side : sides.subspan(1)) {
-      if (components.join(first / 3, side.corner / 3)) --report.components;
-      const bool same_way = vertex_of(mesh, side.corner) == start;
-      const std::uint32_t tail = same_way ? side.corner : next_corner(side.corner);
-      const std::uint32_t head = same_way ? next_corner(side.corner) : side.corner;
-      if (fans.join(first, tail)) --fans_of[start];
-      if (fans.join(next_corner(first), head)) --fans_of[vertex_of(mesh, head)];
-    }
-  });
-  report.boundary_edges = boundary.size();
-  report.nonmanifold_vertices = static_cast<std::size_t>(
-      std::count_if(fans_of.begin(), fans_of.end(), [](std::uint32_t count) { return count > 1; }));
+  SortedHalfEdges(mesh).for_each_edge(
+      [&](std::span<const HalfEdge> sides) { count_edge(mesh, sides, pieces, report); });
+  report.boundary_edges = pieces.boundary.size();
+  report.nonmanifold_vertices = count_if_more(pieces.fans_of, 1);
   report.euler = static_cast<std::ptrdiff_t>(report.vertices) -
                  static_cast<std::ptrdiff_t>(report.edges) +
                  static_cast<std::ptrdiff_t>(proper_faces);
-  count_loops(mesh, boundary, fans, report);
+  count_loops(mesh, pieces.boundary, pieces.fans, report);
   return report;
 }
 

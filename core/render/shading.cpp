@@ -13,10 +13,10 @@ namespace {
 
 constexpr double kEmpty = std::numeric_limits<double>::infinity();
 
-const Vec3 kWhite{1.0, 1.0, 1.0};
-const Vec3 kFrontColor{0.46, 0.57, 0.70};  // linear light: a pale steel blue
-const Vec3 kBackColor{0.85, 0.38, 0.10};   // orange: the inside
-const Vec3 kPointColor{0.16, 0.27, 0.42};
+constexpr Vec3 kWhite{1.0, 1.0, 1.0};
+constexpr Vec3 kFrontColor{0.46, 0.57, 0.70};  // linear light: a pale steel blue
+constexpr Vec3 kBackColor{0.85, 0.38, 0.10};   // orange: the inside
+constexpr Vec3 kPointColor{0.16, 0.27, 0.42};
 
 /// Lights in eye space: x right, y up, z toward the viewer.
 struct Lights {
@@ -140,9 +140,9 @@ class Shader {
     constexpr double kSteepest = 8.0;  // of the tangent plane, per pixel
     const double scale = 1.0 / view_.pixel_size(depths_[pixel]);
     const double nz = std::max(normal.z, 1.0 / kSteepest);
-    const auto set = static_cast<std::size_t>((pixel.x & 1) + 2 * (pixel.y & 1));
+    const int set = (pixel.x & 1) + 2 * (pixel.y & 1);
     double sum = 0.0;
-    for (const Vec2& tap : taps_[set]) {
+    for (const Vec2& tap : taps_[static_cast<std::size_t>(set)]) {
       const Pixel other{pixel.x + static_cast<int>(std::lround(radius_ * tap.x)),
                         pixel.y + static_cast<int>(std::lround(radius_ * tap.y))};
       if (other == pixel || !depths_.extent().contains(other) || depths_[other] == kEmpty) continue;
