@@ -169,6 +169,15 @@ void SeamEdges::find() {
   find_outline_of_removed_faces();
 }
 
+/// Sources of the patch's vertices, which know of samples that no primitive made.
+std::vector<VertexSource> sources_of(const Patch& patch, std::uint32_t view) {
+  std::vector<VertexSource> sources = patch.mesh.sources;
+  sources.resize(patch.mesh.positions.size());  // where the patch records none
+  for (VertexSource& source : sources)
+    source.view = view;
+  return sources;
+}
+
 }  // namespace
 
 Joint begin_joint(TriangleMesh mesh, const Scan& scan, std::uint32_t view) {
@@ -177,10 +186,13 @@ Joint begin_joint(TriangleMesh mesh, const Scan& scan, std::uint32_t view) {
   joint.first_new = static_cast<std::uint32_t>(mesh.positions.size());
   joint.old_faces = mesh.triangles.size();
   const bool has_sources = mesh.positions.empty() || !mesh.sources.empty();
+  if (has_sources) {
+    const std::vector<VertexSource> sources = sources_of(scan.patch, view);
+    mesh.sources.insert(mesh.sources.end(), sources.begin(), sources.end());
+  }
   const std::vector<Pixel>& pixels = scan.patch.pixels;
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     mesh.positions.push_back(scan.patch.mesh.positions[i]);
-    if (has_sources) mesh.sources.push_back({scan.scene_buffer.id[pixels[i]], view});
     joint.image.points.push_back(grid_point(pixels[i]));
     joint.image.depths.push_back(scan.image[pixels[i]]);
   }

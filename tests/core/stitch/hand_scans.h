@@ -35,6 +35,8 @@ inline Scan hand_scan(const DepthAt& depth, const MaskAt& is_active,
   scan.slopes = estimate_slopes(scan.image);
   scan.correspondence = find_correspondence(rasterizer, scan.image, scan.slopes, mesh);
   scan.patch = triangulate(scan.image, scan.active);
+  for (const Pixel pixel : scan.patch.pixels)
+    scan.patch.mesh.sources.push_back({.primitive = scan.scene_buffer.id[pixel]});
   return scan;
 }
 

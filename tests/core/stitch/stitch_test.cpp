@@ -294,6 +294,24 @@ TEST_CASE("new vertices know the primitive and the view they come from", "[stitc
   }
 }
 
+TEST_CASE("vertices of filled samples have a view, but no primitive", "[stitch]") {
+  StitchOptions options = options_of(any_method());
+  options.view = 3;
+  Scan scan = hand_scan(plane(20.0), rectangle({10, 10}, {30, 25}));
+  std::vector<VertexSource>& sources = scan.patch.mesh.sources;
+  const VertexSource filled{};  // whatever primitive was drawn into the pixel
+  sources.at(sources.size() / 2) = filled;
+  const TriangleMesh mesh = stitched({}, scan, options);
+  REQUIRE(mesh.sources.size() == sources.size());
+  for (std::size_t v = 0; v < sources.size(); ++v)
+    CHECK(mesh.sources[v] == VertexSource{sources[v].primitive, 3});
+  sources.clear();
+  const TriangleMesh unrecorded = stitched({}, scan, options);
+  REQUIRE(unrecorded.sources.size() == mesh.positions.size());
+  for (const VertexSource& source : unrecorded.sources)
+    CHECK(source == VertexSource{kNoPrimitive, 3});
+}
+
 TEST_CASE("a mesh without sources gets none", "[stitch]") {
   const StitchMethod method = any_method();
   const TriangleMesh mesh = lattice({8.3, 8.6}, 40, 40, 1.0, 20.0);
