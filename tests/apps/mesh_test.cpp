@@ -1,9 +1,11 @@
 // rangezip mesh: one command from a cloud to a verified mesh, the same bytes however it is run.
 
 #include <catch2/catch.hpp>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 
+#include "core/io/input_file.h"
 #include "core/io/mesh_file.h"
 #include "core/mesh/mesh_report.h"
 #include "tests/apps/program.h"
@@ -110,6 +112,43 @@ TEST_CASE("mesh writes every type, and more on demand", "[apps]") {
   CHECK(read_mesh(folder / "a.stl").triangles.size() == reference.triangles.size());
   REQUIRE(mesh(folder, "b.ply", {"--ascii"}).code == 0);
   CHECK_THAT(load(folder / "b.ply"), Contains("format ascii"));
+  CHECK_THAT(load(folder / "b.ply"), !Contains("source_primitive"));
+  REQUIRE(mesh(folder, "c.ply", {"--sources"}).code == 0);
+  CHECK_THAT(load(folder / "c.ply"), Contains("property uint source_primitive\n"
+                                              "property uint source_view\n"));
+  CHECK(read_mesh(folder / "c.ply").positions == reference.positions);
+}
+
+TEST_CASE("the sources of a mesh name the point behind a vertex and the view that saw it",
+          "[apps]") {
+  const TemporaryFolder folder;
+  store_sphere(folder / "sphere.ply", 5000);
+  const InputItem item = read_input(folder / "sphere.ply").items.at(0);
+  const std::vector<Vec3f>& points = item.cloud->positions;
+  REQUIRE(mesh(folder, "out.ply", {"--sources", "--ascii", "--report", folder / "r.json"}).code ==
+          0);
+  const Json report = Json::parse(load(folder / "r.json"));
+  const std::size_t view_count = report["views"].size();
+  const std::size_t vertex_count = report["mesh"]["vertices"];
+  const double pixel_size = report["pixel_size"];
+
+  std::istringstream file(load(folder / "out.ply"));
+  for (std::string line; line != "end_header";)
+    REQUIRE(std::getline(file, line));
+  std::size_t with_point = 0;
+  for (std::size_t i = 0; i < vertex_count; ++i) {
+    Vec3 position;
+    VertexSource source;
+    REQUIRE(file >> position.x >> position.y >> position.z >> source.primitive >> source.view);
+    CHECK((source.view < view_count || source.view == VertexSource::kNoView));
+    if (source.primitive == kNoPrimitive) continue;
+    REQUIRE(source.primitive < points.size());
+    ++with_point;
+    // Won in the vertex's own pixel; the finish then moves vertices by a few pixels.
+    const Vec3 point = item.world_from_item * Vec4(Vec3(points[source.primitive]), 1.0);
+    CHECK(glm::distance(position, point) < 4.0 * pixel_size);
+  }
+  CHECK(with_point > vertex_count / 2);
 }
 
 TEST_CASE("the options of mesh do what they say", "[apps]") {

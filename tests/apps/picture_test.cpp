@@ -12,6 +12,29 @@ using namespace rangezip;
 using namespace rangezip::test;
 using Catch::Contains;
 
+namespace {
+
+/// Pixels that are not white, and the middle of them, in pixels from the lower left.
+struct Covered {
+  double count = 0.0;
+  Vec2 center{0.0};
+};
+
+Covered covered(const Grid<Rgb>& picture, int first_column, int end_column) {
+  Covered result;
+  for (int y = 0; y < picture.extent().height; ++y) {
+    for (int x = first_column; x < end_column; ++x) {
+      if (picture[{x, y}] == Rgb{255, 255, 255}) continue;
+      result.count += 1.0;
+      result.center += Vec2{x + 0.5, y + 0.5};
+    }
+  }
+  result.center /= std::max(1.0, result.count);
+  return result;
+}
+
+}  // namespace
+
 TEST_CASE("render draws meshes and clouds together, the same with any number of threads",
           "[apps]") {
   const TemporaryFolder folder;
@@ -38,6 +61,52 @@ TEST_CASE("render draws meshes and clouds together, the same with any number of 
   const std::array<std::uint8_t, 3> white{255, 255, 255};
   CHECK(picture[{0, 0}] == white);
   CHECK(std::count(picture.pixels().begin(), picture.pixels().end(), white) < 300 * 200 * 3 / 4);
+}
+
+TEST_CASE("render --zoom enlarges the surroundings of a place of the picture", "[apps]") {
+  // Two plates far apart, one lower left, one upper right.
+  TriangleMesh plates;
+  for (const Vec3& corner : {Vec3{-5, -1, 0}, Vec3{4, 0, 0}}) {
+    const auto first = static_cast<std::uint32_t>(plates.positions.size());
+    for (const Vec3& step : {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{1, 1, 0}, Vec3{0, 1, 0}})
+      plates.positions.push_back(corner + step);
+    plates.triangles.push_back({first, first + 1, first + 2});
+    plates.triangles.push_back({first, first + 2, first + 3});
+  }
+  const TemporaryFolder folder;
+  write_mesh(folder / "plates.off", plates);
+  const auto draw = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{
+        "render", folder / "plates.off", "-o", folder / "out.png", "--direction", "0,0,1", "--size",
+        "600,200"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const RunResult result = run(arguments);
+    CAPTURE(result.err);
+    REQUIRE(result.code == 0);
+    return read_rgb_png(folder / "out.png");
+  };
+  const auto whole = draw({});
+  CHECK(draw({"--zoom", "0.5,0.5,1"}) == whole);
+  const Covered left = covered(whole, 0, 300);
+  const Covered right = covered(whole, 300, 600);
+  REQUIRE(left.count > 1000);
+  CHECK(right.count == Approx(left.count).epsilon(0.05));
+  CHECK(right.center.y > left.center.y + 20);  // the bottom row comes first
+
+  constexpr double kFactor = 3.0;
+  for (const Covered& plate : {left, right}) {
+    const Vec2 share{plate.center.x / 600, plate.center.y / 200};
+    const auto picture = draw({"--zoom", std::to_string(share.x) + "," + std::to_string(share.y) +
+                                             "," + std::to_string(kFactor)});
+    const Covered enlarged = covered(picture, 0, 600);
+    CHECK(enlarged.count == Approx(kFactor * kFactor * plate.count).epsilon(0.05));
+    CHECK(enlarged.center.x == Approx(300).margin(2.0 * kFactor));
+    CHECK(enlarged.center.y == Approx(100).margin(2.0 * kFactor));
+  }
+  const RunResult refused =
+      run({"render", folder / "plates.off", "-o", folder / "out.png", "--zoom", "0.5,0.5,0.9"});
+  CHECK(refused.code == 1);
+  CHECK_THAT(refused.err, Contains("--zoom: the factor must be at least 1"));
 }
 
 TEST_CASE("info counts what is in a cloud and in a mesh", "[apps]") {
