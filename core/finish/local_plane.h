@@ -30,7 +30,7 @@ class PlaneSums {
   }
   [[nodiscard]] int count() const noexcept { return count_; }
 
-  /// By Jacobi rotations, which need square roots only. @pre positive weight in all
+  /// @pre positive weight in all
   [[nodiscard]] LocalPlane plane() const noexcept;
 
  private:

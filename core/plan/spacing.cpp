@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "core/base/symmetric_eigen.h"
 #include "core/plan/spread.h"
 
 namespace rangezip {
@@ -150,29 +151,6 @@ void find_neighbours(std::span<const Vec3> points, std::vector<Neighbourhood>& q
   }
 }
 
-/// The smallest eigenvalue of a symmetric matrix, by Jacobi rotations [Golub, Van Loan 2013, 8.5].
-double smallest_eigenvalue(Mat3 a) {
-  constexpr int kSweeps = 8;  // convergence is quadratic; 5 reach double precision
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    for (const auto& [p, q, r] : {std::array{0, 1, 2}, std::array{0, 2, 1}, std::array{1, 2, 0}}) {
-      if (a[p][q] == 0.0) continue;
-      const double theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-      const double root = std::abs(theta) + std::sqrt(theta * theta + 1.0);
-      const double tangent = (theta < 0.0 ? -1.0 : 1.0) / root;
-      const double cosine = 1.0 / std::sqrt(tangent * tangent + 1.0);
-      const double sine = tangent * cosine;
-      const double rp = a[r][p];
-      const double rq = a[r][q];
-      a[p][p] -= tangent * a[p][q];
-      a[q][q] += tangent * a[p][q];
-      a[p][q] = a[q][p] = 0.0;
-      a[r][p] = a[p][r] = cosine * rp - sine * rq;
-      a[r][q] = a[q][r] = sine * rp + cosine * rq;
-    }
-  }
-  return std::min({a[0][0], a[1][1], a[2][2]});
-}
-
 /// RMS distance of a neighbourhood's places and centre from their best plane, in an unbiased
 /// estimate (the plane takes up three degrees of freedom); 0 where that says nothing.
 double distance_from_plane(const Neighbourhood& neighbourhood) {
@@ -187,7 +165,7 @@ double distance_from_plane(const Neighbourhood& neighbourhood) {
     const Vec3 offset = place - neighbourhood.center() - mean;
     scatter += glm::outerProduct(offset, offset);
   }
-  const double squares = std::max(0.0, smallest_eigenvalue(scatter));
+  const double squares = std::max(0.0, eigen_of_symmetric(scatter).values[0]);
   return std::sqrt(squares / static_cast<double>(count - 3));
 }
 
