@@ -1,13 +1,13 @@
 #include <catch2/catch.hpp>
 
 #include "core/base/error.h"
-#include "tests/support/backends.h"
-#include "tests/support/lattice.h"
+#include "tests/core/raster/drawing.h"
 #include "tests/support/shapes.h"
 
 namespace rangezip {
 namespace {
 
+using drawing::for_each_backend;
 using lattice::px;
 
 constexpr Extent kExtent{20, 16};
@@ -17,15 +17,6 @@ Grid<PixelMoments> accumulate(Rasterizer& rasterizer, const std::vector<DrawItem
   Grid<PixelMoments> sums;
   rasterizer.accumulate(lattice::view(window.reference.extent()), items, window, sums);
   return sums;
-}
-
-template <class Body>
-void for_each_backend(const Body& body) {
-  for (const Backend& backend : all_backends()) {
-    CAPTURE(backend.name);
-    const auto rasterizer = backend.make();
-    body(*rasterizer);
-  }
 }
 
 TEST_CASE("a point on a pixel's centre adds to that pixel only") {
