@@ -49,7 +49,9 @@ Json json_of(const FinishReport& finish) {
           {"open_loops", finish.open_loops},
           {"collapsed_edges", finish.collapsed_edges},
           {"flipped_edges", finish.flipped_edges},
+          {"flattened_spikes", finish.flattened_spikes},
           {"snapped_vertices", finish.snapped_vertices},
+          {"border_steps", finish.border_steps},
           {"dropped_components", finish.dropped_components},
           {"dropped_faces", finish.dropped_faces}};
 }

@@ -49,6 +49,7 @@ FinishResult finish(TriangleMesh mesh, std::span<const Vec3> cloud, const Finish
     const RelaxReport relaxed = relax(mesh, points, {h, options.relaxations}, progress);
     result.report.collapsed_edges = relaxed.collapsed_edges;
     result.report.flipped_edges = relaxed.flipped_edges;
+    result.report.flattened_spikes = relaxed.flattened_spikes;
     if (options.snap_features) {
       const SnapReport snapped = snap_features(mesh, points, {h}, progress);
       result.report.snapped_vertices = snapped.snapped_vertices;

@@ -33,6 +33,7 @@ struct FinishReport {
   std::size_t open_loops = 0;  ///< boundary loops left
   std::size_t collapsed_edges = 0;
   std::size_t flipped_edges = 0;
+  std::size_t flattened_spikes = 0;
   std::size_t snapped_vertices = 0;
   std::size_t border_steps = 0;  ///< that brought the border out to the end of the cloud
   std::size_t dropped_components = 0;

@@ -7,6 +7,7 @@
 #include "core/base/parallel.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/local_plane.h"
+#include "core/finish/spikes.h"
 #include "core/finish/triangle_shape.h"
 
 namespace rangezip {
@@ -42,6 +43,7 @@ class Relaxer {
   void round(RelaxReport& report) {
     report.collapsed_edges += collapse_short_edges();
     report.flipped_edges += flip_edges();
+    report.flattened_spikes += flatten_spikes(positions_, table_, cloud_, h_);
     move_vertices();
   }
   [[nodiscard]] std::vector<Triangle> triangles() const { return table_.triangles(); }
