@@ -13,8 +13,9 @@ namespace rangezip {
 /// Puts single vertices that stick out of a flat surrounding back into it: samples of outliers,
 /// which no fit to the surface's points reaches. A vertex is a spike if it is more than half a
 /// pixel over its neighbours' plane, more than twice as far as any of them, and if of the points of
-/// the cloud around its foot no more are at its height than at theirs. Tips of real cones have no
-/// points at the height of their rim. Cost: linear. @param pixel_size h, model units
+/// the cloud around its foot no more are near its faces than near that plane. Inside of real tips
+/// there are no points. Cost: linear.
+/// @param pixel_size h, model units
 /// @return number of vertices moved
 std::size_t flatten_spikes(std::vector<Vec3>& positions, const CornerTable& table,
                            const PointGrid& cloud, double pixel_size);
