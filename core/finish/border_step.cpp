@@ -13,7 +13,6 @@ constexpr double kMaxLift = 0.3;
 constexpr double kMaxTurn = 0.34;  ///< cosine: 70 degrees between a face before and after
 constexpr double kMaxNotch = 3.0;  ///< in h, between the outer ends of its two edges
 constexpr int kMaxHalvings = 2;
-constexpr std::uint32_t kNone = CornerTable::kNone;
 
 bool is_turn_small(const Vec3& from, const Vec3& to) {
   return has_cosine(from, to, kMaxTurn);

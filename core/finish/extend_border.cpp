@@ -132,7 +132,7 @@ class Extender {
   }
 
   /// Wider each time that the same point is in the way.
-  BorderStep cut(const BorderGap& gap, const CornerTable& table) const {
+  [[nodiscard]] BorderStep cut(const BorderGap& gap, const CornerTable& table) const {
     const auto cuts = cuts_.find(key_of(gap.point));
     const int rings = cuts == cuts_.end() ? 0 : cuts->second;
     if (rings > kMaxRings) return {};
