@@ -64,13 +64,18 @@ LoopGeometry geometry_of(const std::vector<Vec3>& positions, const CornerTable& 
   return geometry;
 }
 
-/// A round loop at which the surface ends, or the outline of a sheet, over which a fill would fold
-/// back.
+/// The outline of a sheet: a fill would fold back over the sheet, and every point of that would look
+/// as if it were evidence for the fill.
+bool is_outline(const LoopGeometry& loop, double pixel_size) {
+  return loop.perimeter > kMinOutline * pixel_size &&
+         glm::dot(loop.across, loop.beside) < kFoldsBack * glm::length(loop.across);
+}
+
+/// A round loop at which the surface ends.
 bool is_rim(const LoopGeometry& loop, bool is_zipped, double pixel_size) {
   constexpr double kFourPi = 12.566370614359172954;
   const double area = glm::length(loop.across);
   const double leads_into = glm::dot(loop.across, loop.beside);
-  if (loop.perimeter > kMinOutline * pixel_size && leads_into < kFoldsBack * area) return true;
   if (loop.perimeter < kMinRim * pixel_size) return false;
   const double round = is_zipped ? kRoundOnceZipped : kRound;
   if (area * kFourPi < round * loop.perimeter * loop.perimeter) return false;
@@ -119,6 +124,7 @@ std::optional<FillShape> choose_fill(const std::vector<Vec3>& positions, const C
   if (loop.corners.size() > kMaxEdges) return std::nullopt;
   const LoopGeometry geometry = geometry_of(positions, table, loop);
   if (geometry.perimeter <= kSmallPerimeter * h) return FillShape::smooth;
+  if (is_outline(geometry, h)) return std::nullopt;
   const HoleFill fill = fill_loop(positions, table, loop, FillShape::smooth, h);
   const Inside inside = look_inside(geometry, fill, cloud, h);
   if (inside.has_points) return FillShape::smooth;

@@ -123,6 +123,26 @@ TEST_CASE("the border of an open surface stays open") {
   REQUIRE(result.mesh.triangles.size() >= faces - faces / 50);
 }
 
+TEST_CASE("the outline of a flat sheet is no hole, though the points of the sheet lie in it") {
+  constexpr int kN = 40;
+  TriangleMesh mesh = testing::cube(kN);
+  testing::cut_where(mesh, [](const Vec3& p) { return p.z < 1.0; });
+  std::mt19937_64 engine(1);
+  std::vector<Vec3> cloud(static_cast<std::size_t>(9 * kN * kN));
+  for (Vec3& p : cloud)
+    p = {testing::uniform(engine, -1, 1), testing::uniform(engine, -1, 1), 1.0};
+  const auto method = GENERATE(FinishMethod::fast, FinishMethod::full);
+  const FinishResult result = finish(mesh, cloud, options_for(kN, method));
+  require_clean(result.mesh);
+  REQUIRE(result.report.open_loops == 1);
+  double area = 0.0;
+  for (const Triangle& t : result.mesh.triangles) {
+    const auto& p = result.mesh.positions;
+    area += 0.5 * glm::length(area_vector(p[t[0]], p[t[1]], p[t[2]]));
+  }
+  REQUIRE(area == Approx(4.0).epsilon(1e-6));
+}
+
 TEST_CASE("a crack that opens into a border is zipped, and the border stays") {
   constexpr int kN = 40;
   const double h = 2.0 / kN;
