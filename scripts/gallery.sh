@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Makes the pictures of docs/gallery.md in docs/gallery/, with the project's own program only.
-#   scripts/gallery.sh [FIGURE]...     all, or some of: results 1 3 4 5 6 8 9 10
+# Makes the pictures of docs/gallery.md and docs/pipeline.md in docs/gallery/, with the project's own
+# program only (range images, which it writes as PFM, are copied into PNG).
+#   scripts/gallery.sh [FIGURE]...     all, or some of: results 1 3 4 5 6 8 9 10 pipeline
 # Needs a release build (made here if missing), the models in ../shared or RANGEZIP_SHARED, and for
 # sampling them /usr/bin/python3 with numpy, scipy and open3d.
 set -euo pipefail
@@ -82,7 +83,7 @@ figure_1() {
 # An eye and the mouth scanned finer than the rest.
 figure_3() {
   sampled igea-400k mesh/igea.ply 400000 --seed 3
-  local cloud=$work/igea-400k.ply view=(--direction 0,0,1 -q) show=(--edges --direction 0,0,1 --zoom 0.5,0.45,1.8)
+  local cloud=$work/igea-400k.ply view=(--direction 0,0,1 -q) show=(--edges --direction 0,0,1 --zoom 0.5,0.41,2.7)
   local fine=(--no-quality --size 400,400 --pixel-size 0.0024)
   "$rangezip" scan "$cloud" -o "$work/3a.ply" --session "$work/3a.json" "${view[@]}" --size 120,120 --pixel-size 0.008
   "$rangezip" scan "$cloud" --mask "$work/mask.png" --session "$work/3-eye.json" "${view[@]}" "${fine[@]}" \
@@ -96,9 +97,11 @@ figure_3() {
   picture figure-3b "$work/3b.ply" "${show[@]}"
 }
 
-# A scan of noisy points without and with the median filter.
+# A scan of noisy points without and with the median filter. The largest gap of the depths lies between
+# the outliers in front and the rest, so what shines through is removed locally instead.
 figure_4() {
-  local view=(--direction 1,0.1,0.1 --method paper -q) show=(--flat --direction 1,0.1,0.1 --zoom 0.4,0.5,1.8)
+  local view=(--direction 1,0.1,0.1 --method paper --no-back-side --see-through -q)
+  local show=(--flat --direction 1,0.1,0.1 --zoom 0.4,0.5,1.8)
   local cloud=$data/cloud/rocker-arm_virtual_scan.xyz
   "$rangezip" scan "$cloud" -o "$work/4a.ply" "${view[@]}" --no-median
   "$rangezip" scan "$cloud" -o "$work/4b.ply" "${view[@]}" --median --median-radius 2
@@ -109,20 +112,21 @@ figure_4() {
 # What a second scan takes by the quality of samples alone, and after erosion and two dilations.
 figure_5() {
   sampled igea-400k mesh/igea.ply 400000 --seed 3
-  local cloud=$work/igea-400k.ply view=(--direction 1,0.1,0.6 --method paper --pixel-size 0.003 -q)
-  "$rangezip" scan "$cloud" -o "$work/5.ply" --direction 0,0,1 --method paper --pixel-size 0.003 -q
-  "$rangezip" scan "$cloud" --into "$work/5.ply" "${view[@]}" --erosions 0 --dilations 0 --mask "$out/figure-5a.png"
-  "$rangezip" scan "$cloud" --into "$work/5.ply" "${view[@]}" --erosions 1 --dilations 2 --mask "$out/figure-5b.png"
+  local cloud=$work/igea-400k.ply paper=(--method paper --pixel-size 0.003 --point-size 2 -q)
+  local second=(--into "$work/5.ply" --direction 1,0.1,0.6 "${paper[@]}")
+  "$rangezip" scan "$cloud" -o "$work/5.ply" --direction 0,0,1 "${paper[@]}"
+  "$rangezip" scan "$cloud" "${second[@]}" --erosions 0 --dilations 0 --mask "$out/figure-5a.png"
+  "$rangezip" scan "$cloud" "${second[@]}" --erosions 1 --dilations 2 --mask "$out/figure-5b.png"
 }
 
-# The seam between two scans: the old mesh, the new patch, both stitched.
+# The seam between two scans: the old mesh, the new patch, both stitched by zippering.
 figure_6() {
   sampled igea-400k mesh/igea.ply 400000 --seed 3
-  local cloud=$work/igea-400k.ply second=(--direction 1,0.1,0.2 --pixel-size 0.012 -q)
+  local cloud=$work/igea-400k.ply second=(--direction 1,0.1,0.2 --pixel-size 0.013 -q)
   local show=(--edges --boundary --direction 0.7,0.1,0.7)
-  "$rangezip" scan "$cloud" -o "$work/6a.ply" --direction 0,0,1 --pixel-size 0.012 -q
+  "$rangezip" scan "$cloud" -o "$work/6a.ply" --direction 0,0,1 --pixel-size 0.013 -q
   "$rangezip" scan "$cloud" -o "$work/6b.ply" "${second[@]}"
-  "$rangezip" scan "$cloud" --into "$work/6a.ply" -o "$work/6c.ply" "${second[@]}"
+  "$rangezip" scan "$cloud" --into "$work/6a.ply" -o "$work/6c.ply" "${second[@]}" --stitch zipper
   for step in a b c; do picture "figure-6$step" "$work/6$step.ply" "${show[@]}"; done
   picture figure-6d "$work/6c.ply" "${show[@]}" --zoom 0.45,0.45,3
 }
@@ -147,7 +151,7 @@ figure_8() {
 figure_9() {
   sampled igea-noisy mesh/igea.ply 400000 --noise 0.001 --seed 4
   local cloud=$work/igea-noisy.ply show=(--direction 0.4,0.1,1)
-  "$rangezip" mesh "$cloud" -o "$work/9b.ply" --pixel-size 0.00686 --finish none --session "$work/9.json" -q
+  "$rangezip" mesh "$cloud" -o "$work/9b.ply" --pixel-size 0.00678 --finish none --session "$work/9.json" -q
   edited "$work/9-smooth.json" "$work/9.json" \
     'c + [{"command": "finish"}, {"command": "smooth", "iterations": 1, "factor": 0.5}]'
   "$rangezip" play "$work/9-smooth.json" -o "$work/9c.ply" -q
@@ -216,7 +220,52 @@ figure_10() {
   picture figure-10c "$work/10c.ply" --boundary --direction 0.15,0.25,0.9 --up 0,0,1
 }
 
-for figure in "${@:-results 1 3 4 5 6 8 9 10}"; do
+# grey_picture IN.pfm OUT.png: a range image; what is near is bright, empty pixels are white. The
+# nearest and the farthest hundredth do not set the scale: they may be outliers.
+grey_picture() {
+  /usr/bin/python3 - "$1" "$2" <<'EOF'
+import struct, sys, zlib
+import numpy
+
+with open(sys.argv[1], 'rb') as file:
+    file.readline()
+    width, height = map(int, file.readline().split())
+    order = '<' if float(file.readline()) < 0 else '>'
+    depth = numpy.frombuffer(file.read(), order + 'f4').reshape(height, width)[::-1]
+seen = numpy.isfinite(depth)
+near, far = numpy.percentile(depth[seen], (1, 99))
+grey = numpy.full(depth.shape, 255, 'u1')
+grey[seen] = (225 - 205 * numpy.clip((depth[seen] - near) / (far - near), 0, 1)).astype('u1')
+rows = b''.join(b'\0' + row.tobytes() for row in grey)
+
+def chunk(name, data):
+    return struct.pack('>I', len(data)) + name + data + struct.pack('>I', zlib.crc32(name + data))
+
+header = struct.pack('>IIBBBBB', width, height, 8, 0, 0, 0, 0)
+with open(sys.argv[2], 'wb') as file:
+    file.write(b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', header) + chunk(b'IDAT', zlib.compress(rows, 9)) +
+               chunk(b'IEND', b''))
+EOF
+}
+
+# Steps of docs/pipeline.md: a range image as drawn and after all passes, its patch, and a place of the
+# whole mesh after the fast finish and after the full one.
+figure_pipeline() {
+  local cloud=$data/range/dragon_stand_merged.ply view=(--direction 0,0,1 --size 360,230 -q)
+  local raw=(--no-see-through --no-vote --no-plane-fit --no-fill-holes)
+  "$rangezip" scan "$cloud" "${view[@]}" "${raw[@]}" --range-image "$work/drawn.pfm"
+  "$rangezip" scan "$cloud" "${view[@]}" -o "$work/patch.ply" --range-image "$work/passed.pfm"
+  grey_picture "$work/drawn.pfm" "$out/pipeline-drawn.png"
+  grey_picture "$work/passed.pfm" "$out/pipeline-passed.png"
+  picture pipeline-patch "$work/patch.ply" --boundary --direction 0,0,1
+
+  local show=(--boundary --edges --direction 0.1,0.1,1 --zoom 0.62,0.2,5)
+  "$rangezip" mesh "$cloud" -o "$work/finish-a.ply" --finish fast -q
+  "$rangezip" mesh "$cloud" -o "$work/finish-b.ply" -q
+  for step in a b; do picture "pipeline-finish-$step" "$work/finish-$step.ply" "${show[@]}"; done
+}
+
+for figure in "${@:-results 1 3 4 5 6 8 9 10 pipeline}"; do
   for one in $figure; do
     echo "gallery: $one"
     case $one in
