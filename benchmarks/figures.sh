@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # Prints README.md's table of figures, one line a row as it is measured: meshes each input with no option
 # but -o, judges the result with rangezip-compare.
-# Usage: benchmarks/figures.sh [FOLDER]     default $RANGEZIP_SHARED/data, else ../shared/data:
-#        the folder with range/bunny, range/dragon_stand_merged.ply, cloud/, mesh/, seed/
+# Usage: benchmarks/figures.sh [FOLDER [ROW]...]   FOLDER has range/bunny, range/dragon_stand_merged.ply,
+#        cloud/, mesh/, seed/; default $RANGEZIP_SHARED/data, else ../shared/data. Without ROW: all rows.
 # Rows whose input is missing are left out and named at the end. Needs the package `time`.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 data=${1:-${RANGEZIP_SHARED:-../shared}/data}
+wanted=("${@:2}")
 out=out/figures
 mkdir -p "$out"
 
@@ -26,9 +27,20 @@ percent() {
   awk -v share="$1" 'BEGIN { if (share == "") print "-"; else printf "%.4f", 100 * share }'
 }
 
+# is_wanted NAME: whether the row was asked for.
+is_wanted() {
+  local name
+  [ "${#wanted[@]}" -gt 0 ] || return 0
+  for name in "${wanted[@]}"; do
+    [ "$name" != "$1" ] || return 0
+  done
+  return 1
+}
+
 # row NAME INPUT TRUTH CLOUD: the last two may be -.
 row() {
   local name=$1 input=$2 truth=$3 cloud=$4 arguments=()
+  is_wanted "$name" || return 0
   if [ ! -e "$input" ]; then
     missing+=("$name: $input")
     return
@@ -51,7 +63,8 @@ row() {
 
 # sampled NAME MESH POINTS: a row for a cloud sampled from a mesh.
 sampled() {
-  [ -e "$2" ] && "$compare" sample "$2" -o "$out/$1.xyz" --points "$3"
+  is_wanted "$1" || return 0
+  [ ! -e "$2" ] || "$compare" sample "$2" -o "$out/$1.xyz" --points "$3"
   row "$1" "$out/$1.xyz" "$2" "$out/$1.xyz"
 }
 

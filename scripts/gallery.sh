@@ -2,6 +2,7 @@
 # Makes the pictures of docs/gallery.md and docs/pipeline.md in docs/gallery/, with the project's own
 # program only (range images, which it writes as PFM, are copied into PNG).
 #   scripts/gallery.sh [FIGURE]...     all, or some of: results 1 3 4 5 6 8 9 10 pipeline
+#   scripts/gallery.sh readme          docs/images/bunny.png, of what scripts/demo.sh leaves in out/demo
 # Needs a release build (made here if missing), the models in ../shared or RANGEZIP_SHARED, and for
 # sampling them /usr/bin/python3 with numpy, scipy and open3d.
 set -euo pipefail
@@ -263,6 +264,15 @@ figure_pipeline() {
   "$rangezip" mesh "$cloud" -o "$work/finish-a.ply" --finish fast -q
   "$rangezip" mesh "$cloud" -o "$work/finish-b.ply" -q
   for step in a b; do picture "pipeline-finish-$step" "$work/finish-$step.ply" "${show[@]}"; done
+}
+
+# The README's picture: every tenth point of the demo's cloud, and beside it the mesh.
+figure_readme() {
+  local demo=$root/out/demo
+  [ -s "$demo/bunny.ply" ] || { echo "gallery: run scripts/demo.sh first" >&2; exit 2; }
+  awk 'NR % 10 == 0 { print $1 - 1.12, $2, $3 }' "$demo/bunny.xyz" >"$work/beside.xyz"
+  "$rangezip" render "$demo/bunny.ply" "$work/beside.xyz" -o "$root/docs/images/bunny.png" --size 1000,470 -q \
+    --direction 0.15,0.15,1
 }
 
 for figure in "${@:-results 1 3 4 5 6 8 9 10 pipeline}"; do
