@@ -56,10 +56,25 @@ int run(const Action& action) {
   }
 }
 
+/// Without this an unknown command reads as none at all.
+void check_command_name(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::string known;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->get_name() == argv[1]) return;
+    known += (known.empty() ? "" : ", ") + command->get_name();
+  }
+  throw CLI::ValidationError(argv[1], "is no command; there are " + known);
+}
+
 int parse_and_run(int argc, char** argv) {
   CLI::App app{"Clean triangle meshes from raw 3D data by virtual range scanning", "rangezip"};
   app.set_version_flag("--version", "rangezip " RANGEZIP_VERSION);
   app.require_subcommand(1);
+  app.failure_message([](const CLI::App* failing, const CLI::Error& error) {
+    return "rangezip: " + std::string(error.what()) + "\nSee " + failing->get_display_name() +
+           " --help\n";
+  });
   app.footer(std::string("'rangezip COMMAND --help' lists the options of a command.\n\n") +
              kExitCodes);
   Action action;
@@ -69,6 +84,7 @@ int parse_and_run(int argc, char** argv) {
   add_play_command(app, action);
   add_info_command(app, action);
   try {
+    check_command_name(app, argc, argv);
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help, --version
     return app.exit(success);

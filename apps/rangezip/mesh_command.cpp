@@ -97,6 +97,8 @@ void mesh(const MeshOptions& options, const Context& context) {
   run.stages.insert(run.stages.end(), result.report.stages.begin(), result.report.stages.end());
   progress.check_stop();
 
+  require_faces(result.mesh, options.output,
+                "the scans were too small: use a smaller --pixel-size or more --triangles");
   const StageClock write_clock;
   write_output([&] { write_mesh(options.output, result.mesh, options.file); });
   run.stages.push_back(write_clock.stage("write"));
@@ -118,12 +120,8 @@ void add_resolution_options(CLI::App& command, MeshOptions& options) {
                  "Side of a pixel of the virtual scans, in the units of the input [from the "
                  "spacing of the points]",
                  "H");
-  command
-      .add_option_function<std::size_t>(
-          "--triangles", [&options](std::size_t count) { options.reconstruct.triangles = count; },
-          "About how many triangles to make, instead of a pixel size")
-      ->check(CLI::PositiveNumber)
-      ->type_name("N")
+  add_parsed(command, "--triangles", options.reconstruct.triangles, parse_count,
+             "About how many triangles to make, instead of a pixel size", "N")
       ->excludes(pixel_size);
 }
 

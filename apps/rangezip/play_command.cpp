@@ -85,7 +85,7 @@ void play(const PlayOptions& options, const Context& context) {
   TriangleMesh initial;
   if (file.initial_mesh) {
     initial = read_mesh(file.initial_mesh->path);
-    check_mesh(initial);
+    check_given_mesh(initial, file.initial_mesh->path);
   }
 
   SessionOptions session_options;
@@ -97,6 +97,7 @@ void play(const PlayOptions& options, const Context& context) {
   console.end_task();
   progress.check_stop();
 
+  require_faces(*session.mesh(), options.output, "the commands leave none");
   write_output([&] { write_mesh(options.output, *session.mesh(), options.file); });
   console.print(fmt::format("session   {} commands", file.commands.size()));
   console.print(fmt::format("mesh      {}", topology_text(report_mesh(*session.mesh()))));

@@ -94,7 +94,7 @@ void scan(const ScanOptions& options, const Context& context) {
   TriangleMesh initial;
   if (options.into) {
     initial = read_mesh(*options.into);
-    check_mesh(initial);
+    check_given_mesh(initial, *options.into);
   }
 
   const auto [amount, unit] = workload_of(input.scene);
@@ -105,10 +105,11 @@ void scan(const ScanOptions& options, const Context& context) {
   console.end_task();
   progress.check_stop();
 
-  write_output([&] {
-    if (options.output) write_mesh(*options.output, *session.mesh(), options.file);
-    write_images(options, *session.last_scan());
-  });
+  write_output([&] { write_images(options, *session.last_scan()); });
+  if (options.output) {
+    require_faces(*session.mesh(), *options.output, "nothing of the input is seen and taken");
+    write_output([&] { write_mesh(*options.output, *session.mesh(), options.file); });
+  }
   if (options.session) {
     const SessionFile file = record_session(options.inputs, input, options.into, {command});
     write_output([&] { write_session(*options.session, file); });

@@ -54,6 +54,15 @@ double parse_positive(const std::string& text) {
   return *number;
 }
 
+std::size_t parse_count(const std::string& text) {
+  std::size_t count = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (error != std::errc{} || end != text.data() + text.size() || count == 0) {
+    refuse("a whole number greater than 0", text);
+  }
+  return count;
+}
+
 double parse_not_negative(const std::string& text) {
   const auto number = number_of(text);
   if (!number || !(*number >= 0.0)) refuse("a number of at least 0", text);

@@ -25,12 +25,22 @@ CLI::Option* add_parsed(CLI::App& command, const std::string& name, Target& targ
                         const Parse& parse, const std::string& text, const std::string& form) {
   return command
       .add_option_function<std::string>(
-          name, [&target, parse](const std::string& value) { target = parse(value); }, text)
+          name,
+          [&target, parse, name](const std::string& value) {
+            try {
+              target = parse(value);
+            } catch (const CLI::ValidationError& error) {
+              throw CLI::ValidationError(name, error.what());
+            }
+          },
+          text)
       ->type_name(form);
 }
 
 /// A number greater than 0.
 [[nodiscard]] double parse_positive(const std::string& text);
+/// A whole number greater than 0.
+[[nodiscard]] std::size_t parse_count(const std::string& text);
 /// A number of at least 0.
 [[nodiscard]] double parse_not_negative(const std::string& text);
 

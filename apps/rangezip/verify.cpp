@@ -1,6 +1,7 @@
 #include "apps/rangezip/verify.h"
 
 #include "apps/rangezip/console.h"
+#include "apps/rangezip/exit_code.h"
 
 namespace rangezip::app {
 
@@ -28,13 +29,26 @@ std::string faults_text(const MeshReport& report, std::size_t self_intersections
   const auto add = [&](std::size_t count, const char* thing) {
     if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, thing);
   };
-  if (report.faces == 0) text = "no face";
   add(report.nonmanifold_edges, "non-manifold edge");
   add(report.nonmanifold_vertices, "non-manifold fan");
   add(report.misoriented_edges, "misoriented edge");
   add(report.degenerate_faces, "degenerate face");
   add(self_intersections, "self-intersecting pair");
   return text;
+}
+
+void require_faces(const TriangleMesh& mesh, const std::filesystem::path& output,
+                   const std::string& advice) {
+  if (!mesh.empty()) return;
+  throw NotVerified(output.string() + ": is not written: no face came out; " + advice);
+}
+
+void check_given_mesh(const TriangleMesh& mesh, const std::filesystem::path& path) {
+  try {
+    check_mesh(mesh);
+  } catch (const TopologyError& error) {
+    throw TopologyError(path.string() + ": " + error.what());
+  }
 }
 
 }  // namespace rangezip::app

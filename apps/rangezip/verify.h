@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 
 #include "core/mesh/mesh_report.h"
+#include "core/mesh/triangle_mesh.h"
 
 namespace rangezip::app {
 
@@ -13,5 +15,14 @@ namespace rangezip::app {
 /// What keeps a mesh from being a clean one: "2 non-manifold edges, 1 self-intersecting pair";
 /// empty for a clean one.
 [[nodiscard]] std::string faults_text(const MeshReport& report, std::size_t self_intersections);
+
+/// An empty mesh is no result: no file is written for it.
+/// @param advice what may give one
+/// @throws NotVerified if there is no face
+void require_faces(const TriangleMesh& mesh, const std::filesystem::path& output,
+                   const std::string& advice);
+
+/// A mesh given with --into or by a session. @throws TopologyError that names the file
+void check_given_mesh(const TriangleMesh& mesh, const std::filesystem::path& path);
 
 }  // namespace rangezip::app

@@ -19,7 +19,9 @@ void check_mesh_path(const std::filesystem::path& path);
 /// Writes PLY (positions as doubles), OBJ, OFF or STL by the extension of `path`. Written beside
 /// the target and renamed, so a failure leaves no partial file and an input can be overwritten
 /// safely. Text has the fewest digits that give back the same double; binary STL holds floats only.
-/// @throws IoError for an unknown extension or if the file cannot be written in full.
+/// @throws IoError for an unknown extension, if the file cannot be written in full, or if two
+/// corners
+///     of a face would become one in the floats of binary STL.
 /// @throws InvalidArgument if `with_sources` is asked of a mesh without sources.
 /// @pre every corner is the index of a position
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh,

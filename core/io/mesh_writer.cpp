@@ -149,6 +149,21 @@ void write_stl_binary(MeshOutput& out, const TriangleMesh& mesh) {
   }
 }
 
+/// STL repeats the corners of every face, so readers join those with equal coordinates; in floats,
+/// far from the origin, those of different vertices may be equal.
+void check_fits_floats(const TriangleMesh& mesh, const std::filesystem::path& path) {
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const std::array<Vec3, 3> corners = corners_of(mesh, mesh.triangles[f]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 &a = corners[i], &b = corners[(i + 1) % 3];
+      if (a == b || Vec3f(a) != Vec3f(b)) continue;
+      throw IoError(path.string() + ": binary STL stores 32-bit floats, too coarse for face " +
+                    std::to_string(f) + ", two corners of which would become one; " +
+                    "write .ply, .obj or .off, or move the input nearer to the origin");
+    }
+  }
+}
+
 void write_stl(MeshOutput& out, const TriangleMesh& mesh, const MeshFileOptions& options) {
   options.ascii ? write_stl_text(out, mesh) : write_stl_binary(out, mesh);
 }
@@ -188,6 +203,7 @@ void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh,
                           std::to_string(mesh.sources.size()) + " for " +
                           std::to_string(mesh.positions.size()));
   }
+  if (write == &write_stl && !options.ascii) check_fits_floats(mesh, path);
   MeshOutput out(path);
   write(out, mesh, options);
   out.commit();

@@ -179,6 +179,15 @@ TEST_CASE("the options of mesh do what they say", "[apps]") {
   REQUIRE(mesh(folder, "out.ply", {"--finish", "fast"}).code == 0);
 }
 
+TEST_CASE("a run that ends without a face writes nothing and says what may help", "[apps]") {
+  const TemporaryFolder folder;
+  const auto cloud = folder.store("cloud.xyz", "0 0 0\n1 0 0\n0 1 0\n0 0 1\n");
+  const RunResult result = run({"mesh", cloud, "-o", folder / "out.ply"});
+  CHECK(result.code == 5);
+  CHECK_THAT(result.err, Contains("is not written: no face came out") && Contains("--pixel-size"));
+  CHECK(folder.count() == 1);
+}
+
 TEST_CASE("an input may be overwritten by its mesh", "[apps]") {
   const TemporaryFolder folder;
   store_sphere(folder / "sphere.ply");

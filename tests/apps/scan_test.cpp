@@ -172,5 +172,15 @@ TEST_CASE("a mesh that is not manifold is refused with exit code 5", "[apps]") {
                                 "3 0 1 2\n3 0 1 3\n3 0 1 4\n");
   const RunResult result = scan(folder, {"--into", fan, "-o", folder / "out.ply"});
   CHECK(result.code == 5);
+  CHECK_THAT(result.err, Catch::Contains("fan.off: "));
   CHECK(folder.count() == 2);
+}
+
+TEST_CASE("a scan that takes nothing writes no mesh", "[apps]") {
+  const TemporaryFolder folder;
+  store_sphere(folder / "sphere.ply", 1000);
+  const RunResult result = scan(folder, {"--clip", "1,0,0,-100", "-o", folder / "out.ply"});
+  CHECK(result.code == 5);
+  CHECK_THAT(result.err, Catch::Contains("is not written: no face came out"));
+  CHECK(folder.count() == 1);
 }

@@ -91,6 +91,20 @@ TEST_CASE("Binary STL holds the nearest floats") {
     }
 }
 
+TEST_CASE("Binary STL is refused where floats would make one corner of two") {
+  const TemporaryFolder folder;
+  TriangleMesh mesh{.positions = {{0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0}}, .triangles = {{0, 1, 2}}};
+  REQUIRE_NOTHROW(write_mesh(folder / "near.stl", mesh));
+  for (Vec3& p : mesh.positions)
+    p += Vec3(851298.0);  // floats are 1/16 apart there
+  REQUIRE_THROWS_WITH(
+      write_mesh(folder / "far.stl", mesh),
+      Catch::Contains("far.stl: binary STL stores 32-bit floats") && Catch::Contains("face 0"));
+  REQUIRE(folder.count() == 1);
+  REQUIRE_NOTHROW(write_mesh(folder / "far.stl", mesh, {.ascii = true}));
+  REQUIRE_NOTHROW(write_mesh(folder / "far.ply", mesh));
+}
+
 TEST_CASE("The sources of vertices are written as PLY properties on demand") {
   const TemporaryFolder folder;
   const TriangleMesh mesh = random_mesh(3, 4);
