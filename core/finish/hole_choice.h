@@ -18,10 +18,10 @@ struct HoleChoiceOptions {
 /// Whether a boundary loop is a gap in what was scanned, and then how to close it, or the border of
 /// an open surface, which stays (no value):
 /// - a small loop (up to 12 h) is closed;
+/// - the outline of a sheet stays: a fill would fold back over the sheet;
 /// - a loop with points of the cloud inside is closed whatever its size;
 /// - a round rim (longer than 20 h) where the surface ends without leading into the hole, as at the
-/// end of a tube, and
-///   the outline of a sheet stay;
+///   end of a tube, stays;
 /// - a crack, nowhere wider than narrow_width, is closed whatever its length;
 /// - others are first zipped where their sides are close, since cracks often open into a border;
 /// - once zipped, those up to max_hole_perimeter are closed, and longer ones unless they are wide.
