@@ -12,7 +12,6 @@
 
 #include "core/finish/border_gaps.h"
 #include "core/finish/border_step.h"
-#include "core/finish/clean_topology.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/face_grid.h"
 #include "core/finish/self_intersection.h"
@@ -88,7 +87,7 @@ class Extender {
     for (const BorderStep& step : changes) {
       if (is_move(step.kind)) ++moves_[step.vertices.front()];
     }
-    take_away({cuts, steps.end()});
+    take_away({cuts, steps.end()}, report.dropped);
     report.steps += changes.size() + static_cast<std::size_t>(steps.end() - cuts);
     return true;
   }
@@ -231,7 +230,7 @@ class Extender {
     return fails;
   }
 
-  void take_away(const std::vector<BorderStep>& cuts) {
+  void take_away(const std::vector<BorderStep>& cuts, DroppedComponents& sum) {
     if (cuts.empty()) return;
     std::vector<std::uint8_t> goes(mesh_.triangles.size(), 0);
     for (const BorderStep& step : cuts) {
@@ -247,7 +246,9 @@ class Extender {
     }
     mesh_.triangles.resize(kept);
     clean_topology(mesh_);
-    drop_small_components(mesh_, min_component_);
+    const DroppedComponents dropped = drop_small_components(mesh_, min_component_);
+    sum.components += dropped.components;
+    sum.faces += dropped.faces;
   }
 
   TriangleMesh& mesh_;

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "core/base/progress.h"
+#include "core/finish/clean_topology.h"
 #include "core/finish/point_grid.h"
 #include "core/mesh/triangle_mesh.h"
 
@@ -18,6 +19,7 @@ struct ExtendBorderReport {
   std::size_t steps = 0;           ///< that were taken
   std::size_t reverted_steps = 0;  ///< that were taken back: faces would have crossed
   std::size_t edges_left = 0;      ///< border edges that points of the cloud still lie beyond
+  DroppedComponents dropped;       ///< pieces that cutting left
 };
 
 /// Brings the border of an open surface out to where the points of the cloud end: scans end at the

@@ -57,10 +57,11 @@ FinishResult finish(TriangleMesh mesh, std::span<const Vec3> cloud, const Finish
       result.report.flipped_edges += snapped.flipped_edges;
     }
     repair(mesh, points, options, result.report, progress);
-    result.report.border_steps =
-        extend_border(mesh, points, {.pixel_size = h, .min_component = options.min_component},
-                      progress)
-            .steps;
+    const ExtendBorderReport extended = extend_border(
+        mesh, points, {.pixel_size = h, .min_component = options.min_component}, progress);
+    result.report.border_steps = extended.steps;
+    result.report.dropped_components += extended.dropped.components;
+    result.report.dropped_faces += extended.dropped.faces;
   }
   const CornerTable table(mesh.triangles, mesh.positions.size());
   result.report.open_loops = boundary_loops(table).size();
