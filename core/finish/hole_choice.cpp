@@ -64,8 +64,8 @@ LoopGeometry geometry_of(const std::vector<Vec3>& positions, const CornerTable& 
   return geometry;
 }
 
-/// The outline of a sheet: a fill would fold back over the sheet, and every point of that would look
-/// as if it were evidence for the fill.
+/// The outline of a sheet: a fill would fold back over the sheet, and every point of that would
+/// look as if it were evidence for the fill.
 bool is_outline(const LoopGeometry& loop, double pixel_size) {
   return loop.perimeter > kMinOutline * pixel_size &&
          glm::dot(loop.across, loop.beside) < kFoldsBack * glm::length(loop.across);
