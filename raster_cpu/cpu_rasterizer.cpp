@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "raster_cpu/fixed_point.h"
 #include "raster_cpu/key_buffer.h"
 #include "raster_cpu/point_moments.h"
 #include "raster_cpu/point_raster.h"
+#include "raster_cpu/simd_kernels.h"
 #include "raster_cpu/triangle_raster.h"
 
 namespace rangezip {
 
 namespace {
+
+constexpr std::string_view kScalar = "scalar";
 
 /// Into how many parts a scene is cut, each drawn into its own buffer. A part must be worth the
 /// clearing and merging of its buffer. Their number cannot show: the minimum of the keys does not
@@ -30,16 +34,27 @@ std::size_t blocks_in(std::size_t count, std::size_t grain) {
   return (count + grain - 1) / grain;
 }
 
+/// R2-R4 and R11. @return number rejected by R3 or R4
+std::size_t snap(const RowTransform& rows, std::span<const Vec3f> positions,
+                 std::span<SnappedPosition> snapped, const SimdKernels* kernels) {
+  KernelReport done;
+  if (kernels != nullptr) done = kernels->snap(rows, positions, snapped);
+  const auto from = positions.subspan(done.processed);
+  const auto to = snapped.subspan(done.processed);
+  done.rejected += snap_positions(rows, from, to);
+  reject_clipped(rows, from, to);
+  return done.rejected;
+}
+
 /// Snaps positions for several threads. @return number rejected by R3 or R4.
 std::size_t snap_in_parallel(const RowTransform& rows, std::span<const Vec3f> positions,
-                             std::span<SnappedPosition> snapped) {
+                             std::span<SnappedPosition> snapped, const SimdKernels* kernels) {
   constexpr std::size_t kGrain = std::size_t{1} << 14;
   std::vector<std::size_t> rejected(blocks_in(positions.size(), kGrain));
   parallel_for(positions.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     const auto from = positions.subspan(begin, end - begin);
     const auto to = snapped.subspan(begin, end - begin);
-    rejected[begin / kGrain] = snap_positions(rows, from, to);
-    reject_clipped(rows, from, to);
+    rejected[begin / kGrain] = snap(rows, from, to, kernels);
   });
   std::size_t sum = 0;
   for (const std::size_t count : rejected)
@@ -51,14 +66,19 @@ std::size_t snap_in_parallel(const RowTransform& rows, std::span<const Vec3f> po
 class ItemPainter {
  public:
   ItemPainter(const View& view, const DepthBand* band, std::vector<std::vector<PixelKey>>& buffers,
-              std::size_t parts, std::vector<SnappedPosition>& scratch)
-      : view_(view), band_(band), buffers_(buffers), parts_(parts), scratch_(scratch) {}
+              std::size_t parts, std::vector<SnappedPosition>& scratch, const SimdKernels* kernels)
+      : view_(view),
+        band_(band),
+        buffers_(buffers),
+        parts_(parts),
+        scratch_(scratch),
+        kernels_(kernels) {}
 
   void operator()(const DrawPoints& points) {
     const RowTransform rows = make_row_transform(view_, points.world_from_item);
     report_.dropped_points += draw_parts(
         points.positions.size(), [&](std::size_t begin, std::size_t end, const DrawTarget& target) {
-          return draw_points(points, rows, begin, end, target);
+          return draw_points(points, rows, begin, end, target, kernels_);
         });
   }
 
@@ -66,7 +86,7 @@ class ItemPainter {
     const RowTransform rows = make_row_transform(view_, item.world_from_item);
     if (scratch_.size() < item.positions.size()) scratch_.resize(item.positions.size());
     const auto snapped = std::span(scratch_).first(item.positions.size());
-    snap_in_parallel(rows, item.positions, snapped);
+    snap_in_parallel(rows, item.positions, snapped, kernels_);
     report_.dropped_triangles += draw_parts(
         item.triangles.size(), [&](std::size_t begin, std::size_t end, const DrawTarget& target) {
           return draw_triangles(item, rows, snapped, begin, end, target);
@@ -96,6 +116,7 @@ class ItemPainter {
   std::vector<std::vector<PixelKey>>& buffers_;
   std::size_t parts_;
   std::vector<SnappedPosition>& scratch_;
+  const SimdKernels* kernels_;
   DrawReport report_;
 };
 
@@ -109,7 +130,28 @@ struct CpuRasterizer::Workspace {
   RowBins bins;
 };
 
-CpuRasterizer::CpuRasterizer() : workspace_(std::make_unique<Workspace>()) {}
+std::vector<std::string> cpu_instructions() {
+  std::vector<std::string> names;
+  for (const SimdKernels& kernels : simd_kernels())
+    names.push_back(kernels.name);
+  names.emplace_back(kScalar);
+  return names;
+}
+
+CpuRasterizer::CpuRasterizer() : CpuRasterizer(cpu_instructions().front()) {}
+
+CpuRasterizer::CpuRasterizer(std::string_view instructions)
+    : workspace_(std::make_unique<Workspace>()) {
+  if (instructions == kScalar) return;
+  for (const SimdKernels& kernels : simd_kernels()) {
+    if (kernels.name == instructions) kernels_ = &kernels;
+  }
+  if (kernels_ == nullptr) {
+    throw InvalidArgument("CpuRasterizer: this machine has no instructions named \"" +
+                          std::string(instructions) + "\"");
+  }
+}
+
 CpuRasterizer::~CpuRasterizer() = default;
 
 RasterizerInfo CpuRasterizer::info() const {
@@ -130,7 +172,7 @@ DrawReport CpuRasterizer::draw(const View& view, std::span<const DrawItem> items
     for (std::size_t part = first; part < last; ++part)
       keys[part].assign(pixels, kEmptyPixel);
   });
-  ItemPainter painter(view, band, keys, parts, workspace_->snapped);
+  ItemPainter painter(view, band, keys, parts, workspace_->snapped, kernels_);
   for (const DrawItem& item : items)
     std::visit(painter, item);
   constexpr std::size_t kGrain = std::size_t{1} << 16;
@@ -176,7 +218,7 @@ DrawReport CpuRasterizer::do_accumulate(const View& view, std::span<const DrawIt
       workspace_->snapped.resize(std::max(workspace_->snapped.size(), count));
       const auto snapped = std::span(workspace_->snapped).first(count);
       report.dropped_points +=
-          snap_in_parallel(rows, points->positions.subspan(at, count), snapped);
+          snap_in_parallel(rows, points->positions.subspan(at, count), snapped, kernels_);
       const auto votes = points->votes.empty() ? points->votes : points->votes.subspan(at, count);
       workspace_->bins.fill(snapped, votes, extent);
       parallel_for(bins, bins_per_thread, [&](std::size_t begin, std::size_t end) {

@@ -1,10 +1,19 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "core/raster/rasterizer.h"
 
 namespace rangezip {
+
+struct SimdKernels;
+
+/// The sets of vector instructions that this machine has for drawing, the widest first, then
+/// "scalar": plain code, which is the norm that the others keep bit for bit.
+[[nodiscard]] std::vector<std::string> cpu_instructions();
 
 /// The reference: docs/rasterization.md in code, the same bits everywhere. Uses the threads of the
 /// enclosing run_with_threads(); the image never depends on their number.
@@ -14,7 +23,9 @@ namespace rangezip {
 /// at most 28 MB.
 class CpuRasterizer final : public Rasterizer {
  public:
-  CpuRasterizer();
+  CpuRasterizer();  ///< with the widest instructions of this machine
+  /// @param instructions one of cpu_instructions(). @throws InvalidArgument for another
+  explicit CpuRasterizer(std::string_view instructions);
   ~CpuRasterizer() override;
 
   [[nodiscard]] RasterizerInfo info() const override;
@@ -30,6 +41,7 @@ class CpuRasterizer final : public Rasterizer {
   DrawReport draw(const View& view, std::span<const DrawItem> items, const DepthBand* band,
                   Framebuffer& out);
 
+  const SimdKernels* kernels_ = nullptr;  ///< null: scalar
   struct Workspace;
   std::unique_ptr<Workspace> workspace_;
 };

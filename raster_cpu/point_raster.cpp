@@ -60,8 +60,15 @@ void draw_squares(std::span<const SnappedPosition> points, PrimitiveId first_id,
 }  // namespace
 
 std::size_t draw_points(const DrawPoints& points, const RowTransform& rows, std::size_t begin,
-                        std::size_t end, const DrawTarget& target) {
+                        std::size_t end, const DrawTarget& target, const SimdKernels* kernels) {
   std::size_t rejected = 0;
+  if (kernels != nullptr && points.point_size == 1) {
+    const KernelReport report =
+        kernels->draw_single_pixels(rows, points.positions.subspan(begin, end - begin),
+                                    points.first_id + static_cast<PrimitiveId>(begin), target);
+    begin += report.processed;
+    rejected += report.rejected;
+  }
   std::array<SnappedPosition, kBlock> buffer;
   for (std::size_t at = begin; at < end; at += kBlock) {
     const auto positions = points.positions.subspan(at, std::min(kBlock, end - at));

@@ -5,12 +5,14 @@
 #include "core/raster/draw_item.h"
 #include "core/raster/row_transform.h"
 #include "raster_cpu/key_buffer.h"
+#include "raster_cpu/simd_kernels.h"
 
 namespace rangezip {
 
 /// Draws the points begin..end-1 of an item as squares (R2-R5, R9, R11, R12).
+/// @param kernels null: the scalar code, which is the norm
 /// @return number of points rejected by R3 or R4
 std::size_t draw_points(const DrawPoints& points, const RowTransform& rows, std::size_t begin,
-                        std::size_t end, const DrawTarget& target);
+                        std::size_t end, const DrawTarget& target, const SimdKernels* kernels);
 
 }  // namespace rangezip

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <string>
@@ -17,7 +18,13 @@ struct Backend {
 
 /// Every exact backend that this build has; the first is the reference.
 inline std::vector<Backend> all_backends() {
-  return {{"cpu", [] { return std::make_unique<CpuRasterizer>(); }}};
+  std::vector<Backend> backends;
+  std::vector<std::string> instructions = cpu_instructions();
+  std::rotate(instructions.begin(), instructions.end() - 1, instructions.end());
+  for (const std::string& name : instructions) {
+    backends.push_back({"cpu " + name, [name] { return std::make_unique<CpuRasterizer>(name); }});
+  }
+  return backends;
 }
 
 }  // namespace rangezip

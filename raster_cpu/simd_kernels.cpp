@@ -1,0 +1,279 @@
+#include "raster_cpu/simd_kernels.h"
+
+#include <array>
+#include <bit>
+
+// Highway compiles this file once for each set of instructions (#include <foreach_target.h>).
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raster_cpu/simd_kernels.cpp"  // NOLINT
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "raster_cpu/fixed_point.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace rangezip::HWY_NAMESPACE {
+#if HWY_TARGET != HWY_SCALAR  // its vectors have one lane: the scalar code is better
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Floats = hn::ScalableTag<float>;
+using Ints = hn::RebindToSigned<Floats>;
+using FloatVec = hn::Vec<Floats>;
+using IntVec = hn::Vec<Ints>;
+using Mask = hn::Mask<Ints>;
+
+constexpr std::size_t kLanes = hn::MaxLanes(Floats());
+
+/// Positions of a vector of points, one coordinate a vector.
+struct Lanes {
+  FloatVec x, y, z;
+};
+
+/// Snapped coordinates; where `valid` is false they mean nothing.
+struct SnappedLanes {
+  IntVec x, y, z;
+  Mask valid;
+};
+
+Lanes load(const Vec3f* positions) {
+  const Floats d;
+  Lanes p;
+  hn::LoadInterleaved3(d, &positions->x, p.x, p.y, p.z);
+  return p;
+}
+
+/// R2. Never fused: the build forbids contraction.
+FloatVec row_product(const Row& row, const Lanes& p) {
+  const Floats d;
+  FloatVec sum = hn::Mul(hn::Set(d, row[0]), p.x);
+  sum = hn::Add(sum, hn::Mul(hn::Set(d, row[1]), p.y));
+  sum = hn::Add(sum, hn::Mul(hn::Set(d, row[2]), p.z));
+  return hn::Add(sum, hn::Set(d, row[3]));
+}
+
+/// |v| <= limit, false for NaN.
+hn::Mask<Floats> is_within(FloatVec v, FloatVec limit) {
+  return hn::Le(hn::Abs(v), limit);
+}
+
+/// R3.
+SnappedLanes snap_parallel(const RowTransform& rows, const Lanes& p) {
+  const Floats d;
+  const FloatVec x = row_product(rows.x, p), y = row_product(rows.y, p), z = row_product(rows.z, p);
+  const FloatVec max_xy = hn::Set(d, static_cast<float>(kGuardXY));
+  const FloatVec max_z = hn::Set(d, static_cast<float>(kGuardZ));
+  const auto valid =
+      hn::And(hn::And(is_within(x, max_xy), is_within(y, max_xy)), is_within(z, max_z));
+  // NearestInt rounds ties to even in the default rounding mode.
+  return {hn::NearestInt(x), hn::NearestInt(y), hn::NearestInt(z), hn::RebindMask(Ints(), valid)};
+}
+
+/// R4 for half a vector, in double: the exact nearest integer to v / w.
+template <class Half>
+hn::Vec<hn::Rebind<std::int32_t, Half>> round_quotient(Half half, hn::Vec<Half> v, hn::Vec<Half> w,
+                                                       hn::Vec<Half> per_w) {
+  const auto one = hn::Set(half, 1.0);
+  auto q = hn::Round(hn::Mul(v, per_w));  // within 1 of the exact quotient
+  const auto v2 = hn::Add(v, v);
+  const auto q2 = hn::Add(q, q);
+  // Both products have at most 27 + 24 bits: exact.
+  const auto is_high = hn::Lt(v2, hn::Mul(hn::Sub(q2, one), w));
+  const auto is_low = hn::Ge(v2, hn::Mul(hn::Add(q2, one), w));
+  q = hn::IfThenElse(is_high, hn::Sub(q, one), q);
+  q = hn::IfThenElse(is_low, hn::Add(q, one), q);
+  return hn::DemoteTo(hn::Rebind<std::int32_t, Half>(), q);
+}
+
+/// R4.
+SnappedLanes snap_central(const RowTransform& rows, const Lanes& p) {
+  const Floats d;
+  const FloatVec x = row_product(rows.x, p), y = row_product(rows.y, p), z = row_product(rows.z, p),
+                 w = row_product(rows.w, p);
+  // Powers of two times w: exact, as in double.
+  const FloatVec max_xy = hn::Mul(w, hn::Set(d, static_cast<float>(kGuardXY)));
+  const FloatVec max_z = hn::Mul(w, hn::Set(d, static_cast<float>(kGuardZ)));
+  auto valid = hn::And(hn::Ge(w, hn::Set(d, 0x1p-64F)), hn::Le(w, hn::Set(d, 0x1p64F)));
+  valid = hn::And(valid, hn::And(is_within(x, max_xy), is_within(y, max_xy)));
+  valid = hn::And(valid, is_within(z, max_z));
+
+  const hn::Repartition<double, Floats> half;
+  const hn::Half<Floats> d_half;
+  const auto quotients = [&](FloatVec v, auto w_low, auto w_high, auto per_low, auto per_high) {
+    const auto low =
+        round_quotient(half, hn::PromoteTo(half, hn::LowerHalf(d_half, v)), w_low, per_low);
+    const auto high =
+        round_quotient(half, hn::PromoteTo(half, hn::UpperHalf(d_half, v)), w_high, per_high);
+    return hn::Combine(Ints(), high, low);
+  };
+  const auto w_low = hn::PromoteTo(half, hn::LowerHalf(d_half, w));
+  const auto w_high = hn::PromoteTo(half, hn::UpperHalf(d_half, w));
+  const auto one = hn::Set(half, 1.0);
+  const auto per_low = hn::Div(one, w_low), per_high = hn::Div(one, w_high);
+  return {quotients(x, w_low, w_high, per_low, per_high),
+          quotients(y, w_low, w_high, per_low, per_high),
+          quotients(z, w_low, w_high, per_low, per_high), hn::RebindMask(Ints(), valid)};
+}
+
+/// R11.
+Mask is_inside(const RowTransform& rows, const Lanes& p, Mask mask) {
+  const Floats d;
+  for (const Row& plane : rows.clip) {
+    const auto inside = hn::Ge(row_product(plane, p), hn::Zero(d));
+    mask = hn::And(mask, hn::RebindMask(Ints(), inside));
+  }
+  return mask;
+}
+
+template <bool kIsCentral>
+SnappedLanes snap_lanes(const RowTransform& rows, const Lanes& p) {
+  if constexpr (kIsCentral) {
+    return snap_central(rows, p);
+  } else {
+    return snap_parallel(rows, p);
+  }
+}
+
+template <bool kIsCentral>
+KernelReport snap_all(const RowTransform& rows, std::span<const Vec3f> positions,
+                      std::span<SnappedPosition> snapped) {
+  const Ints d;
+  KernelReport report;
+  for (; report.processed + kLanes <= positions.size(); report.processed += kLanes) {
+    const Lanes p = load(&positions[report.processed]);
+    SnappedLanes s = snap_lanes<kIsCentral>(rows, p);
+    report.rejected += kLanes - hn::CountTrue(d, s.valid);
+    const Mask kept = is_inside(rows, p, s.valid);
+    s.x = hn::IfThenElse(kept, s.x, hn::Set(d, kRejected.x));
+    s.y = hn::IfThenElseZero(kept, s.y);
+    s.z = hn::IfThenElseZero(kept, s.z);
+    hn::StoreInterleaved3(s.x, s.y, s.z, d, &snapped[report.processed].x);
+  }
+  return report;
+}
+
+/// Fragments that may win their pixel, one to a lane of the vectors that follow each other.
+struct Fragments {
+  alignas(64) std::array<std::int32_t, 2 * kLanes> pixel;
+  alignas(64) std::array<std::int32_t, 2 * kLanes> depth;
+  alignas(64) std::array<std::int32_t, 2 * kLanes> number;
+};
+
+/// The fragments whose depth is not behind that of their pixel are few in a large cloud; only those
+/// go on to the scalar update, which then hardly ever branches wrongly.
+template <bool kIsCentral, bool kIsBanded>
+KernelReport draw_all(const RowTransform& rows, std::span<const Vec3f> positions,
+                      PrimitiveId first_id, const DrawTarget& target) {
+  const Ints d;
+  const IntVec width = hn::Set(d, target.extent.width), height = hn::Set(d, target.extent.height);
+  const IntVec below = hn::Set(d, -1);
+  const IntVec depths_end = hn::Set(d, static_cast<std::int32_t>(kMaxDepth + 1));
+  PixelKey* const keys = target.keys.data();
+  // The upper half of each key.
+  const auto* const depths = reinterpret_cast<const std::int32_t*>(keys) +
+                             (std::endian::native == std::endian::little ? 1 : 0);
+  Fragments found;
+  KernelReport report;
+  for (; report.processed + kLanes <= positions.size(); report.processed += kLanes) {
+    const Lanes p = load(&positions[report.processed]);
+    const SnappedLanes s = snap_lanes<kIsCentral>(rows, p);
+    report.rejected += kLanes - hn::CountTrue(d, s.valid);
+    const IntVec x = hn::ShiftRight<kSubpixelBits>(s.x), y = hn::ShiftRight<kSubpixelBits>(s.y);
+    Mask drawn = is_inside(rows, p, s.valid);
+    drawn = hn::And(drawn, hn::And(hn::Gt(x, below), hn::Lt(x, width)));
+    drawn = hn::And(drawn, hn::And(hn::Gt(y, below), hn::Lt(y, height)));
+    drawn = hn::And(drawn, hn::And(hn::Gt(s.z, below), hn::Lt(s.z, depths_end)));
+    const IntVec pixel = hn::IfThenElseZero(drawn, hn::Add(hn::Mul(y, width), x));
+    if constexpr (kIsBanded) {
+      const IntVec lower = hn::GatherIndex(d, target.band->lower.pixels().data(), pixel);
+      const IntVec upper = hn::GatherIndex(d, target.band->upper.pixels().data(), pixel);
+      drawn = hn::AndNot(hn::Or(hn::Gt(lower, s.z), hn::Gt(s.z, upper)), drawn);
+    }
+    // The depth of an empty pixel is all ones, so compare as unsigned: with the top bit turned.
+    const IntVec top = hn::Set(d, static_cast<std::int32_t>(0x8000'0000U));
+    const IntVec current = hn::GatherIndex(d, depths, hn::Add(pixel, pixel));
+    drawn = hn::AndNot(hn::Gt(hn::Xor(s.z, top), hn::Xor(current, top)), drawn);
+    const std::size_t count = hn::CompressStore(pixel, drawn, d, found.pixel.data());
+    if (count == 0) continue;
+    hn::CompressStore(s.z, drawn, d, found.depth.data());
+    hn::CompressStore(hn::Iota(d, 0), drawn, d, found.number.data());
+    const auto base = first_id + static_cast<PrimitiveId>(report.processed);
+    for (std::size_t i = 0; i < count; ++i) {
+      PixelKey& key = keys[static_cast<std::size_t>(found.pixel[i])];
+      key = std::min(key, make_key(static_cast<std::uint32_t>(found.depth[i]),
+                                   base + static_cast<PrimitiveId>(found.number[i])));
+    }
+  }
+  return report;
+}
+
+KernelReport Snap(const RowTransform& rows, std::span<const Vec3f> positions,
+                  std::span<SnappedPosition> snapped) {
+  return rows.is_central ? snap_all<true>(rows, positions, snapped)
+                         : snap_all<false>(rows, positions, snapped);
+}
+
+KernelReport DrawSinglePixels(const RowTransform& rows, std::span<const Vec3f> positions,
+                              PrimitiveId first_id, const DrawTarget& target) {
+  if (target.band == nullptr) {
+    return rows.is_central ? draw_all<true, false>(rows, positions, first_id, target)
+                           : draw_all<false, false>(rows, positions, first_id, target);
+  }
+  return rows.is_central ? draw_all<true, true>(rows, positions, first_id, target)
+                         : draw_all<false, true>(rows, positions, first_id, target);
+}
+
+}  // namespace
+
+SimdKernels MakeKernels() {
+  return {hwy::TargetName(HWY_TARGET), &Snap, &DrawSinglePixels};
+}
+
+#else
+
+SimdKernels MakeKernels() {
+  return {};
+}
+
+#endif
+
+}  // namespace rangezip::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace rangezip {
+
+HWY_EXPORT(MakeKernels);
+
+namespace {
+
+std::vector<SimdKernels> find_kernels() {
+  std::vector<SimdKernels> found;
+#if (HWY_TARGETS & (HWY_TARGETS - 1)) == 0
+  found.push_back(HWY_STATIC_DISPATCH(MakeKernels)());
+#else
+  std::int64_t left = hwy::SupportedTargets();
+  // The lower the bit, the wider the instructions.
+  for (; left != 0; left &= left - 1) {
+    hwy::ChosenTarget chosen;
+    chosen.Update(left & -left);
+    const auto make = HWY_DISPATCH_TABLE(MakeKernels)[chosen.GetIndex()];
+    if (make != nullptr) found.push_back(make());
+  }
+#endif
+  std::erase_if(found, [](const SimdKernels& kernels) { return kernels.name.empty(); });
+  return found;
+}
+
+}  // namespace
+
+const std::vector<SimdKernels>& simd_kernels() {
+  static const std::vector<SimdKernels> kernels = find_kernels();
+  return kernels;
+}
+
+}  // namespace rangezip
+
+#endif  // HWY_ONCE

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/raster/draw_item.h"
+#include "core/raster/row_transform.h"
+#include "raster_cpu/key_buffer.h"
+
+namespace rangezip {
+
+/// What a kernel did with the first points of a span; the rest, less than a vector, is the
+/// caller's.
+struct KernelReport {
+  std::size_t processed = 0;
+  std::size_t rejected = 0;  ///< by R3 or R4
+};
+
+/// The inner loops for one set of vector instructions. Each gives the bits of the scalar code that
+/// it stands for.
+struct SimdKernels {
+  std::string name;  ///< "AVX3", "AVX2", ... as Highway calls the set
+
+  /// R2-R4 and R11: as snap_positions() and reject_clipped().
+  KernelReport (*snap)(const RowTransform& rows, std::span<const Vec3f> positions,
+                       std::span<SnappedPosition> snapped) = nullptr;
+  /// R2-R5, R9, R11, R12 for points of one pixel: as draw_points().
+  KernelReport (*draw_single_pixels)(const RowTransform& rows, std::span<const Vec3f> positions,
+                                     PrimitiveId first_id, const DrawTarget& target) = nullptr;
+};
+
+/// The sets of instructions that this machine has, the widest first. Found out once.
+[[nodiscard]] const std::vector<SimdKernels>& simd_kernels();
+
+}  // namespace rangezip
