@@ -101,7 +101,9 @@ class ItemPainter {
     std::vector<std::size_t> dropped(parts_);
     parallel_for(parts_, 1, [&](std::size_t first, std::size_t last) {
       for (std::size_t part = first; part < last; ++part) {
-        const DrawTarget target{.extent = view_.extent(), .keys = buffers_[part], .band = band_};
+        const DrawTarget target{.extent = view_.extent(),
+                                .keys = std::span(buffers_[part]).first(view_.extent().count()),
+                                .band = band_};
         dropped[part] = draw(count * part / parts_, count * (part + 1) / parts_, target);
       }
     });
@@ -170,7 +172,7 @@ DrawReport CpuRasterizer::draw(const View& view, std::span<const DrawItem> items
   keys.resize(std::max(keys.size(), parts));
   parallel_for(parts, 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t part = first; part < last; ++part)
-      keys[part].assign(pixels, kEmptyPixel);
+      keys[part].assign(pixels + kKeyPadding, kEmptyPixel);
   });
   ItemPainter painter(view, band, keys, parts, workspace_->snapped, kernels_);
   for (const DrawItem& item : items)
@@ -182,7 +184,7 @@ DrawReport CpuRasterizer::draw(const View& view, std::span<const DrawItem> items
                  std::span(keys[part]).subspan(begin, end - begin));
     }
   });
-  unpack_keys(keys[0], view.extent(), out);
+  unpack_keys(std::span(keys[0]).first(pixels), view.extent(), out);
   return painter.report();
 }
 

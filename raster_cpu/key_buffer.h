@@ -14,6 +14,9 @@ namespace rangezip {
 using PixelKey = std::uint64_t;
 inline constexpr PixelKey kEmptyPixel = ~PixelKey{0};
 
+/// Keys that a buffer holds after its last pixel, for vectors that reach past it.
+inline constexpr std::size_t kKeyPadding = 16;
+
 [[nodiscard]] constexpr PixelKey make_key(std::uint32_t depth, PrimitiveId id) noexcept {
   return PixelKey{depth} << 32U | id;
 }
@@ -21,7 +24,7 @@ inline constexpr PixelKey kEmptyPixel = ~PixelKey{0};
 /// Where fragments go: each pixel keeps its smallest key.
 struct DrawTarget {
   Extent extent;
-  std::span<PixelKey> keys;         ///< extent.count() of them
+  std::span<PixelKey> keys;         ///< extent.count() of them, and kKeyPadding behind the last
   const DepthBand* band = nullptr;  ///< where set, only depths inside of it count (R12)
 };
 

@@ -57,15 +57,23 @@ void draw_squares(std::span<const SnappedPosition> points, PrimitiveId first_id,
   }
 }
 
+/// The points that fill whole vectors. Squares in a band are left to the scalar code.
+KernelReport draw_vectors(const DrawPoints& points, const RowTransform& rows, std::size_t begin,
+                          std::size_t end, const DrawTarget& target, const SimdKernels& kernels) {
+  const auto positions = points.positions.subspan(begin, end - begin);
+  const PrimitiveId first_id = points.first_id + static_cast<PrimitiveId>(begin);
+  if (points.point_size == 1) return kernels.draw_single_pixels(rows, positions, first_id, target);
+  if (target.band != nullptr) return {};
+  return kernels.draw_squares(rows, positions, points.point_size, first_id, target);
+}
+
 }  // namespace
 
 std::size_t draw_points(const DrawPoints& points, const RowTransform& rows, std::size_t begin,
                         std::size_t end, const DrawTarget& target, const SimdKernels* kernels) {
   std::size_t rejected = 0;
-  if (kernels != nullptr && points.point_size == 1) {
-    const KernelReport report =
-        kernels->draw_single_pixels(rows, points.positions.subspan(begin, end - begin),
-                                    points.first_id + static_cast<PrimitiveId>(begin), target);
+  if (kernels != nullptr) {
+    const KernelReport report = draw_vectors(points, rows, begin, end, target, *kernels);
     begin += report.processed;
     rejected += report.rejected;
   }

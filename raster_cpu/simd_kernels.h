@@ -30,6 +30,10 @@ struct SimdKernels {
   /// R2-R5, R9, R11, R12 for points of one pixel: as draw_points().
   KernelReport (*draw_single_pixels)(const RowTransform& rows, std::span<const Vec3f> positions,
                                      PrimitiveId first_id, const DrawTarget& target) = nullptr;
+  /// R2-R5, R9, R11 for points of any size, without a band: as draw_points(). Reads and writes
+  /// back up to kKeyPadding keys past the last pixel.
+  KernelReport (*draw_squares)(const RowTransform& rows, std::span<const Vec3f> positions, int size,
+                               PrimitiveId first_id, const DrawTarget& target) = nullptr;
 };
 
 /// The sets of instructions that this machine has, the widest first. Found out once.

@@ -49,6 +49,16 @@ void check_accepted(const std::vector<DrawItem>& items) {
   }
 }
 
+TEST_CASE(
+    "the CPU rasterizer has scalar code everywhere, and refuses instructions it does not have") {
+  const std::vector<std::string> instructions = cpu_instructions();
+  REQUIRE(instructions.back() == "scalar");
+  for (const std::string& name : instructions)
+    REQUIRE_NOTHROW(CpuRasterizer(name));
+  REQUIRE_THROWS_AS(CpuRasterizer("abacus"), InvalidArgument);
+  REQUIRE_THROWS_WITH(CpuRasterizer("abacus"), Contains("abacus"));
+}
+
 TEST_CASE("a corner index out of range is refused") {
   DrawTriangles item = good_triangles();
   const std::vector<Triangle> faces{{0, 1, 2}, {0, 3, 1}};
