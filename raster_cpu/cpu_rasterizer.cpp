@@ -226,7 +226,9 @@ DrawReport CpuRasterizer::do_accumulate(const View& view, std::span<const DrawIt
       parallel_for(bins, bins_per_thread, [&](std::size_t begin, std::size_t end) {
         const int first = static_cast<int>(begin) * RowBins::kRows;
         const int last = std::min(static_cast<int>(end) * RowBins::kRows, extent.height);
-        add_moments(workspace_->bins.touching(first, last), {first, last - 1}, target);
+        const bool has_vectors = kernels_ != nullptr && kernels_->add_moments != nullptr;
+        const auto add = has_vectors ? kernels_->add_moments : &add_moments;
+        add(workspace_->bins.touching(first, last), {first, last - 1}, target);
       });
     }
   }

@@ -9,13 +9,6 @@ namespace rangezip {
 
 namespace {
 
-[[noreturn]] void throw_too_many(const MomentTarget& target, std::size_t pixel) {
-  const auto width = static_cast<std::size_t>(target.extent.width);
-  throw Error("accumulate: a pixel takes at most 2^19 points, more lie around pixel (" +
-              std::to_string(pixel % width) + ", " + std::to_string(pixel / width) +
-              "); use smaller pixels");
-}
-
 /// One point at one pixel, dx and dy from the pixel's centre.
 void add_term(PixelMoments& sums, std::int32_t dx, std::int32_t dy, std::int64_t z, int vote) {
   const std::int32_t w = (kSubpixels - std::abs(dx)) * (kSubpixels - std::abs(dy));
@@ -34,12 +27,6 @@ void add_term(PixelMoments& sums, std::int32_t dx, std::int32_t dy, std::int64_t
   sums.w_vote += std::int64_t{w} * vote;
 }
 
-/// The lower and left one of the pixels whose centres lie less than a pixel away. -1 is the one
-/// before the first.
-int first_near(std::int32_t coordinate) {
-  return (coordinate - kHalfPixel) >> kSubpixelBits;
-}
-
 bool is_summed(const SnappedPosition& p, Extent extent) {
   const int x = first_near(p.x);
   const int y = first_near(p.y);
@@ -54,6 +41,13 @@ std::size_t bin_of(const SnappedPosition& p) {
 }
 
 }  // namespace
+
+void throw_too_many_points(const MomentTarget& target, std::size_t pixel) {
+  const auto width = static_cast<std::size_t>(target.extent.width);
+  throw Error("accumulate: a pixel takes at most 2^19 points, more lie around pixel (" +
+              std::to_string(pixel % width) + ", " + std::to_string(pixel / width) +
+              "); use smaller pixels");
+}
 
 void RowBins::fill(std::span<const SnappedPosition> points, std::span<const std::int8_t> votes,
                    Extent extent) {
@@ -95,7 +89,7 @@ void add_moments(std::span<const RowBins::Point> points, PixelRange rows,
         const std::size_t pixel = target.extent.index({x, y});
         if (p.z < lower[pixel] || p.z > upper[pixel]) continue;
         if (dx == -kSubpixels || dy == -kSubpixels) continue;  // a whole pixel away: no weight
-        if (++target.counts[pixel] > kMaxPointsPerPixel) throw_too_many(target, pixel);
+        if (++target.counts[pixel] > kMaxPointsPerPixel) throw_too_many_points(target, pixel);
         const std::int64_t z = (std::int64_t{p.z} - reference[pixel]) >> window.shift;
         add_term(target.moments[pixel], dx, dy, z, vote);
       }

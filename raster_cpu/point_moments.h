@@ -47,6 +47,15 @@ struct MomentTarget {
   std::span<std::uint32_t> counts;
 };
 
+/// The lower and left one of the pixels whose centres lie less than a pixel away. -1 is the one
+/// before the first.
+[[nodiscard]] constexpr int first_near(std::int32_t coordinate) noexcept {
+  return (coordinate - kHalfPixel) >> kSubpixelBits;
+}
+
+/// @throws Error that names the pixel
+[[noreturn]] void throw_too_many_points(const MomentTarget& target, std::size_t pixel);
+
 /// R13 for the pixel rows in `rows` only: bands of rows share no pixel, so each may have a thread.
 /// @throws Error if a pixel takes more than kMaxPointsPerPixel points
 void add_moments(std::span<const RowBins::Point> points, PixelRange rows,

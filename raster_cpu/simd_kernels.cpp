@@ -3,6 +3,9 @@
 #include <array>
 #include <bit>
 
+// Vectors whose length is known only at run time can be no members; ARM has NEON beside them.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+
 // Highway compiles this file once for each set of instructions (#include <foreach_target.h>).
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster_cpu/simd_kernels.cpp"  // NOLINT
@@ -303,10 +306,102 @@ KernelReport draw_squares(const RowTransform& rows, std::span<const Vec3f> posit
                          : draw_all_squares<false>(rows, positions, size, first_id, target);
 }
 
+#if HWY_MAX_BYTES >= 32
+using Sums = hn::CappedTag<std::int64_t, 8>;
+using SumVec = hn::Vec<Sums>;
+
+/// Which of the factors 1, dx, dy and z a lane takes: sums 0 to 7 of PixelMoments are w times the
+/// product of two of them. The last two, w z dy and w vote, are left to scalar code.
+constexpr std::array<std::int64_t, 8> kFirstFactor{0, 1, 2, 1, 1, 2, 3, 3};
+constexpr std::array<std::int64_t, 8> kSecondFactor{0, 0, 0, 1, 2, 2, 0, 1};
+
+/// The lanes that begin at sum `first`.
+class SumLanes {
+ public:
+  explicit SumLanes(std::size_t first)
+      : which_first_(hn::LoadU(d_, &kFirstFactor[first])),
+        which_second_(hn::LoadU(d_, &kSecondFactor[first])) {}
+
+  /// Adds w times the products to the sums. All factors are below 2^31, so the even halves of the
+  /// lanes hold them.
+  void add(std::int64_t* sums, SumVec dx, SumVec dy, SumVec z, SumVec w) const {
+    const hn::Repartition<std::int32_t, Sums> d32;
+    const auto first = hn::BitCast(d32, choose(which_first_, dx, dy, z));
+    const auto second = hn::BitCast(d32, choose(which_second_, dx, dy, z));
+    const auto product =
+        hn::MulEven(hn::BitCast(d32, hn::MulEven(first, second)), hn::BitCast(d32, w));
+    hn::StoreU(hn::Add(hn::LoadU(d_, sums), product), d_, sums);
+  }
+
+ private:
+  [[nodiscard]] SumVec choose(SumVec which, SumVec dx, SumVec dy, SumVec z) const {
+    SumVec factor = hn::Set(d_, 1);
+    factor = hn::IfThenElse(hn::Eq(which, hn::Set(d_, 1)), dx, factor);
+    factor = hn::IfThenElse(hn::Eq(which, hn::Set(d_, 2)), dy, factor);
+    return hn::IfThenElse(hn::Eq(which, hn::Set(d_, 3)), z, factor);
+  }
+
+  Sums d_;
+  SumVec which_first_;
+  SumVec which_second_;
+};
+
+void add_terms(PixelMoments& sums, const std::array<SumLanes, 8 / hn::MaxLanes(Sums())>& lanes,
+               std::int32_t dx, std::int32_t dy, std::int64_t z, int vote) {
+  const Sums d;
+  const std::int64_t w = std::int64_t{kSubpixels - std::abs(dx)} * (kSubpixels - std::abs(dy));
+  const SumVec dxs = hn::Set(d, dx), dys = hn::Set(d, dy), zs = hn::Set(d, z), ws = hn::Set(d, w);
+  std::int64_t* at = &sums.w;
+  for (const SumLanes& part : lanes) {
+    part.add(at, dxs, dys, zs, ws);
+    at += hn::MaxLanes(d);
+  }
+  sums.w_z_dy += w * z * dy;
+  sums.w_vote += w * vote;
+}
+
+void add_moments(std::span<const RowBins::Point> points, PixelRange rows,
+                 const MomentTarget& target) {
+  static_assert(sizeof(PixelMoments) == 10 * sizeof(std::int64_t));
+  const AccumulateWindow& window = *target.window;
+  const auto lower = window.band.lower.pixels();
+  const auto upper = window.band.upper.pixels();
+  const auto reference = window.reference.pixels();
+  const auto lanes = [] {
+    if constexpr (hn::MaxLanes(Sums()) == 8) {
+      return std::array{SumLanes(0)};
+    } else {
+      return std::array{SumLanes(0), SumLanes(4)};
+    }
+  }();
+  for (const auto& [p, vote] : points) {
+    const int x0 = first_near(p.x);
+    const int y0 = first_near(p.y);
+    for (int y = std::max(y0, rows.first); y <= std::min(y0 + 1, rows.last); ++y) {
+      const std::int32_t dy = p.y - pixel_center(y);
+      for (int x = std::max(x0, 0); x <= std::min(x0 + 1, target.extent.width - 1); ++x) {
+        const std::int32_t dx = p.x - pixel_center(x);
+        const std::size_t pixel = target.extent.index({x, y});
+        if (p.z < lower[pixel] || p.z > upper[pixel]) continue;
+        if (dx == -kSubpixels || dy == -kSubpixels) continue;  // a whole pixel away: no weight
+        if (++target.counts[pixel] > kMaxPointsPerPixel) throw_too_many_points(target, pixel);
+        const std::int64_t z = (std::int64_t{p.z} - reference[pixel]) >> window.shift;
+        add_terms(target.moments[pixel], lanes, dx, dy, z, vote);
+      }
+    }
+  }
+}
+#endif
+
 }  // namespace
 
 SimdKernels make_kernels() {
-  return {hwy::TargetName(HWY_TARGET), &snap, &draw_single_pixels, &draw_squares};
+  SimdKernels kernels{hwy::TargetName(HWY_TARGET), &snap, &draw_single_pixels, nullptr,
+                      &draw_squares};
+#if HWY_MAX_BYTES >= 32
+  kernels.add_moments = &add_moments;
+#endif
+  return kernels;
 }
 
 #else

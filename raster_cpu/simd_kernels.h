@@ -9,6 +9,7 @@
 #include "core/raster/draw_item.h"
 #include "core/raster/row_transform.h"
 #include "raster_cpu/key_buffer.h"
+#include "raster_cpu/point_moments.h"
 
 namespace rangezip {
 
@@ -30,6 +31,9 @@ struct SimdKernels {
   /// R2-R5, R9, R11, R12 for points of one pixel: as draw_points().
   KernelReport (*draw_single_pixels)(const RowTransform& rows, std::span<const Vec3f> positions,
                                      PrimitiveId first_id, const DrawTarget& target) = nullptr;
+  /// R13: as add_moments(). Null for instructions with less than four 64-bit lanes.
+  void (*add_moments)(std::span<const RowBins::Point> points, PixelRange rows,
+                      const MomentTarget& target) = nullptr;
   /// R2-R5, R9, R11 for points of any size, without a band: as draw_points(). Reads and writes
   /// back up to kKeyPadding keys past the last pixel.
   KernelReport (*draw_squares)(const RowTransform& rows, std::span<const Vec3f> positions, int size,

@@ -244,6 +244,8 @@ void run_quick(Runner& runner) {
     runner.triangles(pixels, best, 1024);
   runner.accumulate(curve, Order::curve, best, 1024);
   runner.accumulate(random, Order::random, best, 1024);
+  runner.accumulate(curve, Order::curve, "scalar", 1024);
+  runner.accumulate(random, Order::random, "scalar", 1024);
 }
 
 void run_full(Runner& runner) {
