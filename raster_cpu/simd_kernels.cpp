@@ -2,6 +2,7 @@
 
 #include <array>
 #include <bit>
+#include <cstring>
 
 // Vectors whose length is known only at run time can be no members; ARM has NEON beside them.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
@@ -40,7 +41,7 @@ struct SnappedLanes {
   Mask valid;
 };
 
-Lanes load(const Vec3f* positions) {
+HWY_INLINE Lanes load(const Vec3f* positions) {
   const Floats d;
   Lanes p;
   hn::LoadInterleaved3(d, &positions->x, p.x, p.y, p.z);
@@ -48,7 +49,7 @@ Lanes load(const Vec3f* positions) {
 }
 
 /// R2. Never fused: the build forbids contraction.
-FloatVec row_product(const Row& row, const Lanes& p) {
+HWY_INLINE FloatVec row_product(const Row& row, const Lanes& p) {
   const Floats d;
   FloatVec sum = hn::Mul(hn::Set(d, row[0]), p.x);
   sum = hn::Add(sum, hn::Mul(hn::Set(d, row[1]), p.y));
@@ -57,12 +58,12 @@ FloatVec row_product(const Row& row, const Lanes& p) {
 }
 
 /// |v| <= limit, false for NaN.
-hn::Mask<Floats> is_within(FloatVec v, FloatVec limit) {
+HWY_INLINE hn::Mask<Floats> is_within(FloatVec v, FloatVec limit) {
   return hn::Le(hn::Abs(v), limit);
 }
 
 /// R3.
-SnappedLanes snap_parallel(const RowTransform& rows, const Lanes& p) {
+HWY_INLINE SnappedLanes snap_parallel(const RowTransform& rows, const Lanes& p) {
   const Floats d;
   const FloatVec x = row_product(rows.x, p), y = row_product(rows.y, p), z = row_product(rows.z, p);
   const FloatVec max_xy = hn::Set(d, static_cast<float>(kGuardXY));
@@ -75,8 +76,9 @@ SnappedLanes snap_parallel(const RowTransform& rows, const Lanes& p) {
 
 /// R4 for half a vector, in double: the exact nearest integer to v / w.
 template <class Half>
-hn::Vec<hn::Rebind<std::int32_t, Half>> round_quotient(Half half, hn::Vec<Half> v, hn::Vec<Half> w,
-                                                       hn::Vec<Half> per_w) {
+HWY_INLINE hn::Vec<hn::Rebind<std::int32_t, Half>> round_quotient(Half half, hn::Vec<Half> v,
+                                                                  hn::Vec<Half> w,
+                                                                  hn::Vec<Half> per_w) {
   const auto one = hn::Set(half, 1.0);
   auto q = hn::Round(hn::Mul(v, per_w));  // within 1 of the exact quotient
   const auto v2 = hn::Add(v, v);
@@ -90,7 +92,7 @@ hn::Vec<hn::Rebind<std::int32_t, Half>> round_quotient(Half half, hn::Vec<Half> 
 }
 
 /// R4.
-SnappedLanes snap_central(const RowTransform& rows, const Lanes& p) {
+HWY_INLINE SnappedLanes snap_central(const RowTransform& rows, const Lanes& p) {
   const Floats d;
   const FloatVec x = row_product(rows.x, p), y = row_product(rows.y, p), z = row_product(rows.z, p),
                  w = row_product(rows.w, p);
@@ -120,7 +122,7 @@ SnappedLanes snap_central(const RowTransform& rows, const Lanes& p) {
 }
 
 /// R11.
-Mask is_inside(const RowTransform& rows, const Lanes& p, Mask mask) {
+HWY_INLINE Mask is_inside(const RowTransform& rows, const Lanes& p, Mask mask) {
   const Floats d;
   for (const Row& plane : rows.clip) {
     const auto inside = hn::Ge(row_product(plane, p), hn::Zero(d));
@@ -130,7 +132,7 @@ Mask is_inside(const RowTransform& rows, const Lanes& p, Mask mask) {
 }
 
 template <bool kIsCentral>
-SnappedLanes snap_lanes(const RowTransform& rows, const Lanes& p) {
+HWY_INLINE SnappedLanes snap_lanes(const RowTransform& rows, const Lanes& p) {
   if constexpr (kIsCentral) {
     return snap_central(rows, p);
   } else {
@@ -156,15 +158,30 @@ KernelReport snap_all(const RowTransform& rows, std::span<const Vec3f> positions
   return report;
 }
 
-/// Fragments that may win their pixel, one to a lane of the vectors that follow each other.
-struct Fragments {
-  alignas(64) std::array<std::int32_t, kLanes> pixel;
-  alignas(64) std::array<std::int32_t, kLanes> depth;
-  alignas(64) std::array<std::int32_t, kLanes> number;
-};
+/// One bit a lane.
+HWY_INLINE std::uint64_t bits_of(Mask mask) {
+  std::array<std::uint8_t, 8> bytes{};
+  hn::StoreMaskBits(Ints(), mask, bytes.data());
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, bytes.data(), sizeof(bits));
+  return std::endian::native == std::endian::little ? bits : bits >> 56U;
+}
 
-/// The fragments whose depth is not behind that of their pixel are few in a large cloud; only those
-/// go on to the scalar update, which then hardly ever branches wrongly.
+/// Calls visit(lane) for every set bit, the lowest first. All set is the usual case.
+template <class Visit>
+HWY_INLINE void for_each_bit(std::uint64_t bits, const Visit& visit) {
+  if (bits == (std::uint64_t{1} << kLanes) - 1) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane)
+      visit(lane);
+    return;
+  }
+  for (; bits != 0; bits &= bits - 1)
+    visit(static_cast<std::size_t>(std::countr_zero(bits)));
+}
+
+/// Snaps a vector of points and lowers their pixels one by one, without a branch that depends on
+/// the pixel. (Gathering the pixels' depths first, to lower only those that win, was slower but for
+/// AVX-512 and points in random order.)
 template <bool kIsCentral, bool kIsBanded>
 KernelReport draw_all(const RowTransform& rows, std::span<const Vec3f> positions,
                       PrimitiveId first_id, const DrawTarget& target) {
@@ -173,10 +190,9 @@ KernelReport draw_all(const RowTransform& rows, std::span<const Vec3f> positions
   const IntVec below = hn::Set(d, -1);
   const IntVec depths_end = hn::Set(d, static_cast<std::int32_t>(kMaxDepth + 1));
   PixelKey* const keys = target.keys.data();
-  // The upper half of each key.
-  const auto* const depths = reinterpret_cast<const std::int32_t*>(keys) +
-                             (std::endian::native == std::endian::little ? 1 : 0);
-  Fragments found;
+  struct {
+    alignas(64) std::array<std::int32_t, kLanes> pixel, depth;
+  } found;
   KernelReport report;
   for (; report.processed + kLanes <= positions.size(); report.processed += kLanes) {
     const Lanes p = load(&positions[report.processed]);
@@ -193,22 +209,14 @@ KernelReport draw_all(const RowTransform& rows, std::span<const Vec3f> positions
       const IntVec upper = hn::GatherIndex(d, target.band->upper.pixels().data(), pixel);
       drawn = hn::AndNot(hn::Or(hn::Gt(lower, s.z), hn::Gt(s.z, upper)), drawn);
     }
-    // The depth of an empty pixel is all ones, so compare as unsigned: with the top bit turned.
-    const IntVec top = hn::Set(d, static_cast<std::int32_t>(0x8000'0000U));
-    const IntVec current = hn::GatherIndex(d, depths, hn::Add(pixel, pixel));
-    drawn = hn::AndNot(hn::Gt(hn::Xor(s.z, top), hn::Xor(current, top)), drawn);
-    const std::size_t count = hn::CountTrue(d, drawn);
-    if (count == 0) continue;
-    // In registers first: a compressing store is microcode on some machines (AMD Zen 4).
-    hn::StoreU(hn::Compress(pixel, drawn), d, found.pixel.data());
-    hn::StoreU(hn::Compress(s.z, drawn), d, found.depth.data());
-    hn::StoreU(hn::Compress(hn::Iota(d, 0), drawn), d, found.number.data());
     const auto base = first_id + static_cast<PrimitiveId>(report.processed);
-    for (std::size_t i = 0; i < count; ++i) {
-      PixelKey& key = keys[static_cast<std::size_t>(found.pixel[i])];
-      key = std::min(key, make_key(static_cast<std::uint32_t>(found.depth[i]),
-                                   base + static_cast<PrimitiveId>(found.number[i])));
-    }
+    hn::Store(pixel, d, found.pixel.data());
+    hn::Store(s.z, d, found.depth.data());
+    for_each_bit(bits_of(drawn), [&](std::size_t lane) {
+      PixelKey& key = keys[static_cast<std::size_t>(found.pixel[lane])];
+      key = std::min(key, make_key(static_cast<std::uint32_t>(found.depth[lane]),
+                                   base + static_cast<PrimitiveId>(lane)));
+    });
   }
   return report;
 }
@@ -233,7 +241,7 @@ using Keys = hn::ScalableTag<PixelKey>;
 
 /// Lowers a square of pixels, wholly on screen, to a key. The vectors reach past the square, where
 /// they write what they read, and past the last pixel into the padding.
-void lower_square(PixelKey* corner, std::size_t width, std::size_t size, PixelKey key) {
+HWY_INLINE void lower_square(PixelKey* corner, std::size_t width, std::size_t size, PixelKey key) {
   const Keys d;
   const auto wanted = hn::Set(d, key);
   for (std::size_t y = 0; y < size; ++y, corner += width) {
@@ -267,7 +275,7 @@ KernelReport draw_all_squares(const RowTransform& rows, std::span<const Vec3f> p
   const IntVec beyond = hn::Set(d, -size);
   const IntVec width = hn::Set(d, target.extent.width), height = hn::Set(d, target.extent.height);
   const int last_x = target.extent.width - size, last_y = target.extent.height - size;
-  alignas(64) std::array<std::int32_t, kLanes> xs, ys, zs, numbers;
+  alignas(64) std::array<std::int32_t, kLanes> xs, ys, zs;
   KernelReport report;
   for (; report.processed + kLanes <= positions.size(); report.processed += kLanes) {
     const Lanes p = load(&positions[report.processed]);
@@ -279,15 +287,13 @@ KernelReport draw_all_squares(const RowTransform& rows, std::span<const Vec3f> p
     drawn = hn::And(drawn, hn::And(hn::Gt(x, beyond), hn::Lt(x, width)));
     drawn = hn::And(drawn, hn::And(hn::Gt(y, beyond), hn::Lt(y, height)));
     drawn = hn::And(drawn, hn::And(hn::Gt(s.z, below), hn::Lt(s.z, depths_end)));
-    const std::size_t count = hn::CountTrue(d, drawn);
-    hn::StoreU(hn::Compress(x, drawn), d, xs.data());
-    hn::StoreU(hn::Compress(y, drawn), d, ys.data());
-    hn::StoreU(hn::Compress(s.z, drawn), d, zs.data());
-    hn::StoreU(hn::Compress(hn::Iota(d, 0), drawn), d, numbers.data());
+    hn::Store(x, d, xs.data());
+    hn::Store(y, d, ys.data());
+    hn::Store(s.z, d, zs.data());
     const auto base = first_id + static_cast<PrimitiveId>(report.processed);
-    for (std::size_t i = 0; i < count; ++i) {
+    for_each_bit(bits_of(drawn), [&](std::size_t i) {
       const PixelKey key =
-          make_key(static_cast<std::uint32_t>(zs[i]), base + static_cast<PrimitiveId>(numbers[i]));
+          make_key(static_cast<std::uint32_t>(zs[i]), base + static_cast<PrimitiveId>(i));
       if (xs[i] >= 0 && xs[i] <= last_x && ys[i] >= 0 && ys[i] <= last_y) {
         lower_square(&target.keys[target.extent.index({xs[i], ys[i]})],
                      static_cast<std::size_t>(target.extent.width), static_cast<std::size_t>(size),
@@ -295,7 +301,7 @@ KernelReport draw_all_squares(const RowTransform& rows, std::span<const Vec3f> p
       } else {
         lower_part(target, xs[i], ys[i], size, key);
       }
-    }
+    });
   }
   return report;
 }
@@ -346,8 +352,9 @@ class SumLanes {
   SumVec which_second_;
 };
 
-void add_terms(PixelMoments& sums, const std::array<SumLanes, 8 / hn::MaxLanes(Sums())>& lanes,
-               std::int32_t dx, std::int32_t dy, std::int64_t z, int vote) {
+HWY_INLINE void add_terms(PixelMoments& sums,
+                          const std::array<SumLanes, 8 / hn::MaxLanes(Sums())>& lanes,
+                          std::int32_t dx, std::int32_t dy, std::int64_t z, int vote) {
   const Sums d;
   const std::int64_t w = std::int64_t{kSubpixels - std::abs(dx)} * (kSubpixels - std::abs(dy));
   const SumVec dxs = hn::Set(d, dx), dys = hn::Set(d, dy), zs = hn::Set(d, z), ws = hn::Set(d, w);
