@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -55,6 +56,34 @@ struct MomentTarget {
 
 /// @throws Error that names the pixel
 [[noreturn]] void throw_too_many_points(const MomentTarget& target, std::size_t pixel);
+
+/// Calls add(sums, dx, dy, z, vote) for each point and each pixel in `rows` that takes it: R13 but
+/// for the sums themselves.
+/// @throws Error if a pixel takes more than kMaxPointsPerPixel points
+template <class Add>
+void for_each_term(std::span<const RowBins::Point> points, PixelRange rows,
+                   const MomentTarget& target, const Add& add) {
+  const AccumulateWindow& window = *target.window;
+  const auto lower = window.band.lower.pixels();
+  const auto upper = window.band.upper.pixels();
+  const auto reference = window.reference.pixels();
+  for (const auto& [p, vote] : points) {
+    const int x0 = first_near(p.x);
+    const int y0 = first_near(p.y);
+    for (int y = std::max(y0, rows.first); y <= std::min(y0 + 1, rows.last); ++y) {
+      const std::int32_t dy = p.y - pixel_center(y);
+      for (int x = std::max(x0, 0); x <= std::min(x0 + 1, target.extent.width - 1); ++x) {
+        const std::int32_t dx = p.x - pixel_center(x);
+        const std::size_t pixel = target.extent.index({x, y});
+        if (p.z < lower[pixel] || p.z > upper[pixel]) continue;
+        if (dx == -kSubpixels || dy == -kSubpixels) continue;  // a whole pixel away: no weight
+        if (++target.counts[pixel] > kMaxPointsPerPixel) throw_too_many_points(target, pixel);
+        const std::int64_t z = (std::int64_t{p.z} - reference[pixel]) >> window.shift;
+        add(target.moments[pixel], dx, dy, z, vote);
+      }
+    }
+  }
+}
 
 /// R13 for the pixel rows in `rows` only: bands of rows share no pixel, so each may have a thread.
 /// @throws Error if a pixel takes more than kMaxPointsPerPixel points

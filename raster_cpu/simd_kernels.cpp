@@ -372,10 +372,6 @@ HWY_INLINE void add_terms(PixelMoments& sums,
 void add_moments(std::span<const RowBins::Point> points, PixelRange rows,
                  const MomentTarget& target) {
   static_assert(sizeof(PixelMoments) == 10 * sizeof(std::int64_t));
-  const AccumulateWindow& window = *target.window;
-  const auto lower = window.band.lower.pixels();
-  const auto upper = window.band.upper.pixels();
-  const auto reference = window.reference.pixels();
   const auto lanes = [] {
     if constexpr (hn::MaxLanes(Sums()) == 8) {
       return std::array{SumLanes(0)};
@@ -383,22 +379,9 @@ void add_moments(std::span<const RowBins::Point> points, PixelRange rows,
       return std::array{SumLanes(0), SumLanes(4)};
     }
   }();
-  for (const auto& [p, vote] : points) {
-    const int x0 = first_near(p.x);
-    const int y0 = first_near(p.y);
-    for (int y = std::max(y0, rows.first); y <= std::min(y0 + 1, rows.last); ++y) {
-      const std::int32_t dy = p.y - pixel_center(y);
-      for (int x = std::max(x0, 0); x <= std::min(x0 + 1, target.extent.width - 1); ++x) {
-        const std::int32_t dx = p.x - pixel_center(x);
-        const std::size_t pixel = target.extent.index({x, y});
-        if (p.z < lower[pixel] || p.z > upper[pixel]) continue;
-        if (dx == -kSubpixels || dy == -kSubpixels) continue;  // a whole pixel away: no weight
-        if (++target.counts[pixel] > kMaxPointsPerPixel) throw_too_many_points(target, pixel);
-        const std::int64_t z = (std::int64_t{p.z} - reference[pixel]) >> window.shift;
-        add_terms(target.moments[pixel], lanes, dx, dy, z, vote);
-      }
-    }
-  }
+  for_each_term(points, rows, target,
+                [&](PixelMoments& sums, std::int32_t dx, std::int32_t dy, std::int64_t z,
+                    int vote) { add_terms(sums, lanes, dx, dy, z, vote); });
 }
 #endif
 
