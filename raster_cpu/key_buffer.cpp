@@ -9,11 +9,14 @@ void merge_keys(std::span<PixelKey> onto, std::span<const PixelKey> from) {
     onto[i] = std::min(onto[i], from[i]);
 }
 
-void unpack_keys(std::span<const PixelKey> keys, Extent extent, Framebuffer& out) {
-  if (out.depth.extent() != extent) out.depth.reset(extent);
-  if (out.id.extent() != extent) out.id.reset(extent);
-  const auto depth = out.depth.pixels();
-  const auto id = out.id.pixels();
+void set_extent(Framebuffer& image, Extent extent) {
+  if (image.depth.extent() != extent) image.depth.reset(extent);
+  if (image.id.extent() != extent) image.id.reset(extent);
+}
+
+void unpack_keys(std::span<const PixelKey> keys, std::size_t first, Framebuffer& out) {
+  const auto depth = out.depth.pixels().subspan(first, keys.size());
+  const auto id = out.id.pixels().subspan(first, keys.size());
   // An empty key is all ones, and so are kNoDepth and kNoPrimitive.
   for (std::size_t i = 0; i < keys.size(); ++i) {
     depth[i] = static_cast<std::uint32_t>(keys[i] >> 32U);

@@ -60,7 +60,10 @@ void with_acceptance(const DrawTarget& target, const Draw& draw) {
 /// Keeps the smaller key of every pixel in `onto`.
 void merge_keys(std::span<PixelKey> onto, std::span<const PixelKey> from);
 
-/// Splits keys into depth and ID.
-void unpack_keys(std::span<const PixelKey> keys, Extent extent, Framebuffer& out);
+/// Gives an image this extent; its pixels are left as they come.
+void set_extent(Framebuffer& image, Extent extent);
+
+/// Splits keys into depth and ID, from pixel `first` on.
+void unpack_keys(std::span<const PixelKey> keys, std::size_t first, Framebuffer& out);
 
 }  // namespace rangezip

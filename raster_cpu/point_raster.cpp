@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 
 #include "raster_cpu/fixed_point.h"
 
@@ -57,23 +58,35 @@ void draw_squares(std::span<const SnappedPosition> points, PrimitiveId first_id,
   }
 }
 
-/// The points that fill whole vectors. Squares in a band are left to the scalar code.
-KernelReport draw_vectors(const DrawPoints& points, const RowTransform& rows, std::size_t begin,
-                          std::size_t end, const DrawTarget& target, const SimdKernels& kernels) {
-  const auto positions = points.positions.subspan(begin, end - begin);
-  const PrimitiveId first_id = points.first_id + static_cast<PrimitiveId>(begin);
-  if (points.point_size == 1) return kernels.draw_single_pixels(rows, positions, first_id, target);
-  if (target.band != nullptr) return {};
-  return kernels.draw_squares(rows, positions, points.point_size, first_id, target);
+/// Whether two positions lie within a few cache lines of each other.
+bool are_close(const SnappedPosition& a, const SnappedPosition& b) {
+  constexpr std::int32_t kNear = 8 * kSubpixels;
+  return !is_rejected(a) && !is_rejected(b) && std::abs(a.x - b.x) < kNear &&
+         std::abs(a.y - b.y) < kNear;
 }
 
 }  // namespace
 
+bool follow_each_other(const RowTransform& rows, std::span<const Vec3f> positions) {
+  constexpr std::size_t kPairs = 256;
+  if (positions.size() < 2) return true;
+  std::size_t close = 0;
+  for (std::size_t pair = 0; pair < kPairs; ++pair) {
+    const std::size_t at = (positions.size() - 2) * pair / (kPairs - 1);
+    std::array<SnappedPosition, 2> snapped;
+    snap_positions(rows, positions.subspan(at, 2), snapped);
+    close += are_close(snapped[0], snapped[1]) ? 1 : 0;
+  }
+  return close > kPairs / 2;
+}
+
 std::size_t draw_points(const DrawPoints& points, const RowTransform& rows, std::size_t begin,
                         std::size_t end, const DrawTarget& target, const SimdKernels* kernels) {
   std::size_t rejected = 0;
-  if (kernels != nullptr) {
-    const KernelReport report = draw_vectors(points, rows, begin, end, target, *kernels);
+  if (kernels != nullptr && points.point_size == 1) {
+    const auto positions = points.positions.subspan(begin, end - begin);
+    const PrimitiveId first_id = points.first_id + static_cast<PrimitiveId>(begin);
+    const auto report = kernels->draw_single_pixels(rows, positions, first_id, target);
     begin += report.processed;
     rejected += report.rejected;
   }

@@ -8,8 +8,10 @@
 
 #include "core/raster/draw_item.h"
 #include "core/raster/row_transform.h"
+#include "raster_cpu/fragment_bins.h"
 #include "raster_cpu/key_buffer.h"
 #include "raster_cpu/point_moments.h"
+#include "raster_cpu/tile.h"
 
 namespace rangezip {
 
@@ -34,13 +36,20 @@ struct SimdKernels {
   /// R13: as add_moments(). Null for instructions with less than four 64-bit lanes.
   void (*add_moments)(std::span<const RowBins::Point> points, PixelRange rows,
                       const MomentTarget& target) = nullptr;
-  /// R2-R5, R9, R11 for points of any size, without a band: as draw_points(). Reads and writes
-  /// back up to kKeyPadding keys past the last pixel.
-  KernelReport (*draw_squares)(const RowTransform& rows, std::span<const Vec3f> positions, int size,
-                               PrimitiveId first_id, const DrawTarget& target) = nullptr;
+  /// R2-R5 and R11 for points of size 1 to kMaxBinnedSize: sorts those that are to be drawn into
+  /// bins. @return number rejected by R3 or R4. @pre at most kMaxRun positions
+  std::size_t (*bin_points)(const RowTransform& rows, std::span<const Vec3f> positions, int size,
+                            const BandLayout& layout, FragmentBins& bins) = nullptr;
+  /// R9 and R12: draws fragments that bin_points() made. Writes back what it reads beside them.
+  void (*draw_fragments)(const FragmentBins::Run& run, Tile& tile) = nullptr;
 };
 
 /// The sets of instructions that this machine has, the widest first. Found out once.
 [[nodiscard]] const std::vector<SimdKernels>& simd_kernels();
+
+/// Each adds its kernels for one set of instructions, by Highway's number of it; nothing if it was
+/// not compiled. For simd_kernels().
+void add_point_kernels(std::size_t target, SimdKernels& kernels);
+void add_moment_kernels(std::size_t target, SimdKernels& kernels);
 
 }  // namespace rangezip

@@ -1,0 +1,190 @@
+#include "raster_cpu/scene_painter.h"
+
+#include <algorithm>
+
+#include "core/base/parallel.h"
+#include "raster_cpu/point_raster.h"
+#include "raster_cpu/triangle_raster.h"
+
+namespace rangezip {
+
+/// How one item is drawn.
+struct ScenePainter::Step {
+  const DrawItem* item = nullptr;
+  RowTransform rows;
+  bool is_binned = false;
+};
+
+namespace {
+
+/// In how many layers so many primitives are drawn. A layer must be worth its clearing and merging.
+/// Their number cannot show: the minimum of the keys does not depend on the order (R9).
+std::size_t layer_count(std::size_t primitives, Extent extent) {
+  constexpr std::size_t kLeastPrimitives = std::size_t{1} << 16;
+  const std::size_t worthwhile = primitives / std::max(kLeastPrimitives, extent.count() / 2);
+  return std::clamp<std::size_t>(worthwhile, 1, static_cast<std::size_t>(thread_count()));
+}
+
+std::size_t blocks_in(std::size_t count, std::size_t grain) {
+  return (count + grain - 1) / grain;
+}
+
+/// R2-R4 and R11. @return number rejected by R3 or R4
+std::size_t snap(const RowTransform& rows, std::span<const Vec3f> positions,
+                 std::span<SnappedPosition> snapped, const SimdKernels* kernels) {
+  KernelReport done;
+  if (kernels != nullptr) done = kernels->snap(rows, positions, snapped);
+  const auto from = positions.subspan(done.processed);
+  const auto to = snapped.subspan(done.processed);
+  done.rejected += snap_positions(rows, from, to);
+  reject_clipped(rows, from, to);
+  return done.rejected;
+}
+
+}  // namespace
+
+std::size_t snap_in_parallel(const RowTransform& rows, std::span<const Vec3f> positions,
+                             std::span<SnappedPosition> snapped, const SimdKernels* kernels) {
+  constexpr std::size_t kGrain = std::size_t{1} << 14;
+  std::vector<std::size_t> rejected(blocks_in(positions.size(), kGrain));
+  parallel_for(positions.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    const auto from = positions.subspan(begin, end - begin);
+    const auto to = snapped.subspan(begin, end - begin);
+    rejected[begin / kGrain] = snap(rows, from, to, kernels);
+  });
+  std::size_t sum = 0;
+  for (const std::size_t count : rejected)
+    sum += count;
+  return sum;
+}
+
+ScenePainter::ScenePainter(const View& view, const DepthBand* depths, const SimdKernels* kernels,
+                           PainterMemory& memory)
+    : view_(view), depths_(depths), kernels_(kernels), memory_(memory) {}
+
+std::vector<ScenePainter::Step> ScenePainter::plan(std::span<const DrawItem> items) const {
+  // An image whose keys the second-level cache holds needs no bins.
+  constexpr std::size_t kCachedPixels = std::size_t{1} << 16;
+  std::vector<Step> steps;
+  for (const DrawItem& item : items) {
+    Step& step = steps.emplace_back();
+    step.item = &item;
+    step.rows = std::visit(
+        [&](const auto& i) { return make_row_transform(view_, i.world_from_item); }, item);
+    const auto* points = std::get_if<DrawPoints>(&item);
+    if (points == nullptr || kernels_ == nullptr || points->point_size > kMaxBinnedSize) continue;
+    step.is_binned = points->point_size > 1 || (view_.extent().count() > kCachedPixels &&
+                                                !follow_each_other(step.rows, points->positions));
+  }
+  return steps;
+}
+
+DrawReport ScenePainter::draw(std::span<const DrawItem> items, Framebuffer& out) {
+  const std::vector<Step> steps = plan(items);
+  std::size_t unbinned = 0;
+  int largest = 0;
+  for (const Step& step : steps) {
+    if (step.is_binned) {
+      largest = std::max(largest, std::get<DrawPoints>(*step.item).point_size);
+    } else {
+      unbinned += primitive_count(*step.item);
+    }
+  }
+  if (largest > 0) memory_.binned.begin(view_.extent(), largest, depths_, *kernels_);
+  if (unbinned > 0 || largest == 0) clear_layers(layer_count(unbinned, view_.extent()));
+  for (const Step& step : steps) {
+    if (const auto* triangles = std::get_if<DrawTriangles>(step.item)) {
+      draw_triangles(*triangles, step.rows);
+    } else if (step.is_binned) {
+      bin_points(std::get<DrawPoints>(*step.item), step.rows);
+    } else {
+      draw_points(std::get<DrawPoints>(*step.item), step.rows);
+    }
+  }
+  const std::span<const PixelKey> drawn = merge_layers();
+  if (largest > 0) {
+    memory_.binned.draw(drawn, out);
+  } else {
+    set_extent(out, view_.extent());
+    unpack_keys(drawn, 0, out);
+  }
+  return report_;
+}
+
+void ScenePainter::clear_layers(std::size_t count) {
+  layers_ = count;
+  auto& layers = memory_.layers;
+  layers.resize(std::max(layers.size(), count));
+  parallel_for(count, 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t layer = first; layer < last; ++layer)
+      layers[layer].assign(view_.extent().count(), kEmptyPixel);
+  });
+}
+
+/// All layers as one; empty if there is none.
+std::span<const PixelKey> ScenePainter::merge_layers() {
+  if (layers_ == 0) return {};
+  constexpr std::size_t kGrain = std::size_t{1} << 16;
+  auto& layers = memory_.layers;
+  parallel_for(view_.extent().count(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t layer = 1; layer < layers_; ++layer) {
+      merge_keys(std::span(layers[0]).subspan(begin, end - begin),
+                 std::span(layers[layer]).subspan(begin, end - begin));
+    }
+  });
+  layers_ = 1;
+  return layers[0];
+}
+
+/// Draws the k-th part of `count` primitives into the k-th layer. @return what was dropped
+template <class Draw>
+std::size_t ScenePainter::draw_parts(std::size_t count, const Draw& draw) {
+  std::vector<std::size_t> dropped(layers_);
+  parallel_for(layers_, 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t layer = first; layer < last; ++layer) {
+      const DrawTarget target{
+          .extent = view_.extent(), .keys = memory_.layers[layer], .band = depths_};
+      dropped[layer] = draw(count * layer / layers_, count * (layer + 1) / layers_, target);
+    }
+  });
+  std::size_t sum = 0;
+  for (const std::size_t n : dropped)
+    sum += n;
+  return sum;
+}
+
+void ScenePainter::draw_points(const DrawPoints& points, const RowTransform& rows) {
+  report_.dropped_points += draw_parts(
+      points.positions.size(), [&](std::size_t begin, std::size_t end, const DrawTarget& target) {
+        return rangezip::draw_points(points, rows, begin, end, target, kernels_);
+      });
+}
+
+void ScenePainter::draw_triangles(const DrawTriangles& item, const RowTransform& rows) {
+  auto& scratch = memory_.snapped;
+  if (scratch.size() < item.positions.size()) scratch.resize(item.positions.size());
+  const auto snapped = std::span(scratch).first(item.positions.size());
+  snap_in_parallel(rows, item.positions, snapped, kernels_);
+  report_.dropped_triangles += draw_parts(
+      item.triangles.size(), [&](std::size_t begin, std::size_t end, const DrawTarget& target) {
+        return rangezip::draw_triangles(item, rows, snapped, begin, end, target);
+      });
+}
+
+void ScenePainter::bin_points(const DrawPoints& points, const RowTransform& rows) {
+  BinnedPoints& binned = memory_.binned;
+  for (std::size_t at = 0; at < points.positions.size();) {
+    if (binned.room() == 0) {
+      const std::span<const PixelKey> under = merge_layers();
+      memory_.layers.resize(std::max<std::size_t>(memory_.layers.size(), 1));
+      memory_.layers[0].resize(view_.extent().count());
+      binned.draw(under, memory_.layers[0]);
+      layers_ = 1;
+    }
+    const std::size_t count = std::min(binned.room(), points.positions.size() - at);
+    report_.dropped_points += binned.add(points, rows, at, at + count);
+    at += count;
+  }
+}
+
+}  // namespace rangezip

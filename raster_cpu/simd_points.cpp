@@ -1,0 +1,306 @@
+// R2-R5, R9, R11 and R12 by vectors of points.
+#include "raster_cpu/simd_kernels.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+// Vectors whose length is known only at run time can be no members; ARM has NEON beside them.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raster_cpu/simd_points.cpp"  // NOLINT
+#include <hwy/cache_control.h>
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "raster_cpu/simd_snap-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace rangezip::HWY_NAMESPACE {
+#if HWY_TARGET != HWY_SCALAR
+namespace {
+
+template <bool kIsCentral>
+KernelReport snap_all(const RowTransform& rows, std::span<const Vec3f> positions,
+                      std::span<SnappedPosition> snapped) {
+  const Ints d;
+  KernelReport report;
+  for (; report.processed + kLanes <= positions.size(); report.processed += kLanes) {
+    const Lanes p = load(&positions[report.processed]);
+    SnappedLanes s = snap_lanes<kIsCentral>(rows, p);
+    report.rejected += kLanes - hn::CountTrue(d, s.valid);
+    const Mask kept = is_inside(rows, p, s.valid);
+    s.x = hn::IfThenElse(kept, s.x, hn::Set(d, kRejected.x));
+    s.y = hn::IfThenElseZero(kept, s.y);
+    s.z = hn::IfThenElseZero(kept, s.z);
+    hn::StoreInterleaved3(s.x, s.y, s.z, d, &snapped[report.processed].x);
+  }
+  return report;
+}
+
+/// Snaps a vector of points and lowers their pixels one by one, without a branch that depends on
+/// the pixel. (Gathering the pixels' depths first, to lower only those that win, was slower but for
+/// AVX-512 and points in random order.)
+template <bool kIsCentral, bool kIsBanded>
+KernelReport draw_all(const RowTransform& rows, std::span<const Vec3f> positions,
+                      PrimitiveId first_id, const DrawTarget& target) {
+  const Ints d;
+  const IntVec width = hn::Set(d, target.extent.width), height = hn::Set(d, target.extent.height);
+  const IntVec below = hn::Set(d, -1);
+  const IntVec depths_end = hn::Set(d, static_cast<std::int32_t>(kMaxDepth + 1));
+  PixelKey* const keys = target.keys.data();
+  struct {
+    alignas(64) std::array<std::int32_t, kLanes> pixel, depth;
+  } found;
+  KernelReport report;
+  for (; report.processed + kLanes <= positions.size(); report.processed += kLanes) {
+    const Lanes p = load(&positions[report.processed]);
+    const SnappedLanes s = snap_lanes<kIsCentral>(rows, p);
+    report.rejected += kLanes - hn::CountTrue(d, s.valid);
+    const IntVec x = hn::ShiftRight<kSubpixelBits>(s.x), y = hn::ShiftRight<kSubpixelBits>(s.y);
+    Mask drawn = is_inside(rows, p, s.valid);
+    drawn = hn::And(drawn, hn::And(hn::Gt(x, below), hn::Lt(x, width)));
+    drawn = hn::And(drawn, hn::And(hn::Gt(y, below), hn::Lt(y, height)));
+    drawn = hn::And(drawn, hn::And(hn::Gt(s.z, below), hn::Lt(s.z, depths_end)));
+    const IntVec pixel = hn::IfThenElseZero(drawn, hn::Add(hn::Mul(y, width), x));
+    if constexpr (kIsBanded) {
+      const IntVec lower = hn::GatherIndex(d, target.band->lower.pixels().data(), pixel);
+      const IntVec upper = hn::GatherIndex(d, target.band->upper.pixels().data(), pixel);
+      drawn = hn::AndNot(hn::Or(hn::Gt(lower, s.z), hn::Gt(s.z, upper)), drawn);
+    }
+    const auto base = first_id + static_cast<PrimitiveId>(report.processed);
+    hn::Store(pixel, d, found.pixel.data());
+    hn::Store(s.z, d, found.depth.data());
+    for_each_bit(bits_of(drawn), [&](std::size_t lane) {
+      PixelKey& key = keys[static_cast<std::size_t>(found.pixel[lane])];
+      key = std::min(key, make_key(static_cast<std::uint32_t>(found.depth[lane]),
+                                   base + static_cast<PrimitiveId>(lane)));
+    });
+  }
+  return report;
+}
+
+KernelReport snap(const RowTransform& rows, std::span<const Vec3f> positions,
+                  std::span<SnappedPosition> snapped) {
+  return rows.is_central ? snap_all<true>(rows, positions, snapped)
+                         : snap_all<false>(rows, positions, snapped);
+}
+
+KernelReport draw_single_pixels(const RowTransform& rows, std::span<const Vec3f> positions,
+                                PrimitiveId first_id, const DrawTarget& target) {
+  if (target.band == nullptr) {
+    return rows.is_central ? draw_all<true, false>(rows, positions, first_id, target)
+                           : draw_all<false, false>(rows, positions, first_id, target);
+  }
+  return rows.is_central ? draw_all<true, true>(rows, positions, first_id, target)
+                         : draw_all<false, true>(rows, positions, first_id, target);
+}
+
+/// Sorts points into bins, a vector at a time.
+template <bool kIsCentral, bool kIsSingle>
+class PointBinner {
+ public:
+  PointBinner(const RowTransform& rows, int size, const BandLayout& layout, FragmentBins& bins)
+      : rows_(rows), layout_(layout), bins_(bins), size_(kIsSingle ? 1 : size) {}
+
+  /// Points `number` and up of the run. @return number of lanes rejected by R3 or R4
+  HWY_INLINE std::size_t add(const Vec3f* positions, std::uint32_t number) {
+    const Ints d;
+    const Lanes p = load(positions);
+    const SnappedLanes s = snap_lanes<kIsCentral>(rows_, p);
+    const IntVec to_corner = hn::Set(d, kHalfPixel * (size_ - 1));
+    const IntVec x = hn::ShiftRight<kSubpixelBits>(hn::Sub(s.x, to_corner));
+    const IntVec y = hn::ShiftRight<kSubpixelBits>(hn::Sub(s.y, to_corner));
+    const IntVec below = hn::Set(d, -1), beyond = hn::Set(d, -size_);
+    const IntVec width = hn::Set(d, layout_.extent.width);
+    const IntVec height = hn::Set(d, layout_.extent.height);
+    Mask drawn = is_inside(rows_, p, s.valid);
+    drawn = hn::And(drawn, hn::And(hn::Gt(x, beyond), hn::Lt(x, width)));
+    drawn = hn::And(drawn, hn::And(hn::Gt(y, beyond), hn::Lt(y, height)));
+    drawn =
+        hn::And(drawn, hn::And(hn::Gt(s.z, below),
+                               hn::Lt(s.z, hn::Set(d, static_cast<std::int32_t>(kMaxDepth) + 1))));
+    const IntVec lower = band_of(kIsSingle ? y : hn::Max(y, hn::Zero(d)));
+    append(lower, x, y, s.z, number, drawn);
+    if constexpr (!kIsSingle) {
+      const IntVec top = hn::Min(hn::Add(y, hn::Set(d, size_ - 1)), hn::Sub(height, hn::Set(d, 1)));
+      const IntVec upper = band_of(top);
+      append(upper, x, y, s.z, number, hn::And(drawn, hn::Ne(lower, upper)));
+    }
+    return kLanes - hn::CountTrue(d, s.valid);
+  }
+
+ private:
+  [[nodiscard]] HWY_INLINE IntVec band_of(IntVec y) const {
+    return hn::ShiftRightSame(y, layout_.rows_log2);
+  }
+
+  HWY_INLINE void append(IntVec band, IntVec x, IntVec y, IntVec z, std::uint32_t number,
+                         Mask which) {
+    const Ints d;
+    const IntVec margin = hn::Set(d, layout_.margin);
+    const IntVec row = hn::Add(hn::Sub(y, hn::ShiftLeftSame(band, layout_.rows_log2)), margin);
+    const IntVec pixel = hn::Add(hn::Mul(row, hn::Set(d, layout_.stride())), hn::Add(x, margin));
+    const IntVec id = hn::Iota(d, static_cast<std::int32_t>(number));
+    // The two halves of a Fragment.
+    constexpr int kDepthInLow = 32 - kRunBits;
+    const auto low = hn::Or(hn::ShiftLeft<kRunBits>(z), id);
+    const auto high = hn::Or(hn::ShiftLeft<kFragmentDepthBits - kDepthInLow>(pixel),
+                             hn::ShiftRight<kDepthInLow>(z));
+    alignas(64) std::array<Fragment, kLanes> fragments;
+    alignas(64) std::array<std::int32_t, kLanes> bands;
+    auto* const halves = reinterpret_cast<std::int32_t*>(fragments.data());
+    if constexpr (std::endian::native == std::endian::little) {
+      hn::StoreInterleaved2(low, high, d, halves);
+    } else {
+      hn::StoreInterleaved2(high, low, d, halves);
+    }
+    hn::Store(band, d, bands.data());
+    Fragment** const cursors = bins_.cursors();
+    for_each_bit(bits_of(which), [&](std::size_t lane) {
+      const auto bin = static_cast<std::size_t>(bands[lane]);
+      Fragment* cursor = cursors[bin];
+      *cursor++ = fragments[lane];
+      hwy::Prefetch(cursor + kPrefetched);
+      cursors[bin] = FragmentBins::is_block_full(cursor) ? bins_.grow(bin, cursor) : cursor;
+    });
+  }
+
+  /// How far ahead of its cursor a bin fetches memory: with many bins the hardware does not.
+  static constexpr std::ptrdiff_t kPrefetched = 16;
+
+  const RowTransform& rows_;
+  const BandLayout& layout_;
+  FragmentBins& bins_;
+  int size_;
+};
+
+template <bool kIsCentral, bool kIsSingle>
+std::size_t bin_all(const RowTransform& rows, std::span<const Vec3f> positions, int size,
+                    const BandLayout& layout, FragmentBins& bins) {
+  PointBinner<kIsCentral, kIsSingle> binner(rows, size, layout, bins);
+  std::size_t rejected = 0;
+  std::size_t i = 0;
+  for (; i + kLanes <= positions.size(); i += kLanes)
+    rejected += binner.add(&positions[i], static_cast<std::uint32_t>(i));
+  if (i == positions.size()) return rejected;
+  // The last vector is filled up with points that R3 and R4 reject.
+  std::array<Vec3f, kLanes> last;
+  last.fill(Vec3f{std::numeric_limits<float>::quiet_NaN()});
+  std::copy(positions.begin() + static_cast<std::ptrdiff_t>(i), positions.end(), last.begin());
+  rejected += binner.add(last.data(), static_cast<std::uint32_t>(i));
+  return rejected - (kLanes - (positions.size() - i));
+}
+
+std::size_t bin_points(const RowTransform& rows, std::span<const Vec3f> positions, int size,
+                       const BandLayout& layout, FragmentBins& bins) {
+  if (size == 1) {
+    return rows.is_central ? bin_all<true, true>(rows, positions, 1, layout, bins)
+                           : bin_all<false, true>(rows, positions, 1, layout, bins);
+  }
+  return rows.is_central ? bin_all<true, false>(rows, positions, size, layout, bins)
+                         : bin_all<false, false>(rows, positions, size, layout, bins);
+}
+
+/// The key that a fragment gives its pixels.
+PixelKey key_of(Fragment fragment, PrimitiveId first_id) {
+  return make_key(depth_of(fragment), first_id + number_in_run(fragment));
+}
+
+void lower_pixels(const FragmentBins::Run& run, PixelKey* keys) {
+  for (const Fragment fragment : run.fragments) {
+    PixelKey& key = keys[tile_pixel(fragment)];
+    key = std::min(key, key_of(fragment, run.first_id));
+  }
+}
+
+/// Lowers squares of pixels, with vectors that reach past each row of a square and write there what
+/// they read.
+template <int kSize>
+void lower_squares(const FragmentBins::Run& run, PixelKey* keys, std::size_t stride) {
+  using Keys = hn::CappedTag<PixelKey, std::bit_ceil(static_cast<unsigned>(kSize))>;
+  const Keys d;
+  constexpr std::size_t kKeys = hn::MaxLanes(Keys());
+  for (const Fragment fragment : run.fragments) {
+    const auto wanted = hn::Set(d, key_of(fragment, run.first_id));
+    PixelKey* row = keys + tile_pixel(fragment);
+    for (int y = 0; y < kSize; ++y, row += stride) {
+      for (std::size_t x = 0; x < kSize; x += kKeys) {
+        const auto now = hn::LoadU(d, row + x);
+        const auto lowered = hn::Min(now, wanted);
+        if (x + kKeys <= kSize) {
+          hn::StoreU(lowered, d, row + x);
+        } else {
+          hn::StoreU(hn::IfThenElse(hn::FirstN(d, kSize - x), lowered, now), d, row + x);
+        }
+      }
+    }
+  }
+}
+
+/// R12: a pixel counts where the depth lies in its interval.
+void lower_in_band(const FragmentBins::Run& run, PixelKey* keys, std::size_t stride,
+                   const Tile::Depths& depths) {
+  const auto size = static_cast<std::size_t>(run.point_size);
+  for (const Fragment fragment : run.fragments) {
+    const PixelKey wanted = key_of(fragment, run.first_id);
+    const auto depth = static_cast<std::int32_t>(depth_of(fragment));
+    std::size_t row = tile_pixel(fragment);
+    for (std::size_t y = 0; y < size; ++y, row += stride) {
+      for (std::size_t pixel = row; pixel < row + size; ++pixel) {
+        const bool counts = depths.lower[pixel] <= depth && depth <= depths.upper[pixel];
+        keys[pixel] = std::min(keys[pixel], counts ? wanted : kEmptyPixel);
+      }
+    }
+  }
+}
+
+void draw_fragments(const FragmentBins::Run& run, Tile& tile) {
+  PixelKey* const keys = tile.keys();
+  const Tile::Depths depths = tile.depths();
+  if (depths.lower != nullptr) return lower_in_band(run, keys, tile.stride(), depths);
+  static_assert(kMaxBinnedSize == 5);
+  switch (run.point_size) {
+    case 1:
+      return lower_pixels(run, keys);
+    case 2:
+      return lower_squares<2>(run, keys, tile.stride());
+    case 3:
+      return lower_squares<3>(run, keys, tile.stride());
+    case 4:
+      return lower_squares<4>(run, keys, tile.stride());
+    default:
+      return lower_squares<5>(run, keys, tile.stride());
+  }
+}
+
+}  // namespace
+#endif
+
+void add_point_kernels([[maybe_unused]] SimdKernels& kernels) {
+#if HWY_TARGET != HWY_SCALAR
+  kernels.snap = &snap;
+  kernels.draw_single_pixels = &draw_single_pixels;
+  kernels.bin_points = &bin_points;
+  kernels.draw_fragments = &draw_fragments;
+#endif
+}
+
+}  // namespace rangezip::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace rangezip {
+
+HWY_EXPORT(add_point_kernels);
+
+void add_point_kernels(std::size_t target, SimdKernels& kernels) {
+  const auto add = HWY_DISPATCH_TABLE(add_point_kernels)[target];
+  if (add != nullptr) add(kernels);
+}
+
+}  // namespace rangezip
+
+#endif  // HWY_ONCE

@@ -1,0 +1,183 @@
+// Snapping by vectors, for each set of instructions: included by the files that Highway compiles
+// once for each (#include <foreach_target.h>).
+
+#if defined(RANGEZIP_SIMD_SNAP_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef RANGEZIP_SIMD_SNAP_INL_H
+#undef RANGEZIP_SIMD_SNAP_INL_H
+#else
+#define RANGEZIP_SIMD_SNAP_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <array>
+#include <bit>
+#include <cstring>
+#include <span>
+
+#include "core/raster/row_transform.h"
+#include "raster_cpu/fixed_point.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace rangezip::HWY_NAMESPACE {
+#if HWY_TARGET != HWY_SCALAR  // its vectors have one lane: the scalar code is better
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// At most 256 bits: what a wider store leaves for scalar loads arrives late (AMD Zen 4: points in
+/// random order at two thirds of the rate).
+using Floats = hn::CappedTag<float, 8>;
+using Ints = hn::RebindToSigned<Floats>;
+using FloatVec = hn::Vec<Floats>;
+using IntVec = hn::Vec<Ints>;
+using Mask = hn::Mask<Ints>;
+
+constexpr std::size_t kLanes = hn::MaxLanes(Floats());
+
+/// Positions of a vector of points, one coordinate a vector.
+struct Lanes {
+  FloatVec x, y, z;
+};
+
+/// Snapped coordinates; where `valid` is false they mean nothing.
+struct SnappedLanes {
+  IntVec x, y, z;
+  Mask valid;
+};
+
+HWY_INLINE Lanes load(const Vec3f* positions) {
+  const Floats d;
+  Lanes p;
+  hn::LoadInterleaved3(d, &positions->x, p.x, p.y, p.z);
+  return p;
+}
+
+/// R2. Never fused: the build forbids contraction.
+HWY_INLINE FloatVec row_product(const Row& row, const Lanes& p) {
+  const Floats d;
+  FloatVec sum = hn::Mul(hn::Set(d, row[0]), p.x);
+  sum = hn::Add(sum, hn::Mul(hn::Set(d, row[1]), p.y));
+  sum = hn::Add(sum, hn::Mul(hn::Set(d, row[2]), p.z));
+  return hn::Add(sum, hn::Set(d, row[3]));
+}
+
+/// |v| <= limit, false for NaN.
+HWY_INLINE hn::Mask<Floats> is_within(FloatVec v, FloatVec limit) {
+  return hn::Le(hn::Abs(v), limit);
+}
+
+/// R3.
+HWY_INLINE SnappedLanes snap_parallel(const RowTransform& rows, const Lanes& p) {
+  const Floats d;
+  const FloatVec x = row_product(rows.x, p), y = row_product(rows.y, p), z = row_product(rows.z, p);
+  const FloatVec max_xy = hn::Set(d, static_cast<float>(kGuardXY));
+  const FloatVec max_z = hn::Set(d, static_cast<float>(kGuardZ));
+  const auto valid =
+      hn::And(hn::And(is_within(x, max_xy), is_within(y, max_xy)), is_within(z, max_z));
+  // NearestInt rounds ties to even in the default rounding mode.
+  return {hn::NearestInt(x), hn::NearestInt(y), hn::NearestInt(z), hn::RebindMask(Ints(), valid)};
+}
+
+/// R4 for lanes in double: floor(v / w + 1/2) of the exact quotient, given 1 / w.
+///
+/// No correction is needed. Both v and w are floats, so where the exact v / w + 1/2 is no integer,
+/// it is at least 2^-25 away from one: 2 v - (2 k + 1) w is a multiple of the lesser of the
+/// spacings of floats at 2 v and at w, and near a tie neither is below w 2^-24. With |v / w| <=
+/// 2^25 the product and the sum here err by at most 2^-27 + 2^-28. An addend between that and 2^-25
+/// less that takes exact ties up, as R4 wants, and takes nothing else across.
+template <class D>
+HWY_INLINE hn::Vec<hn::Rebind<std::int32_t, D>> round_quotient(D d, hn::Vec<D> v,
+                                                               hn::Vec<D> per_w) {
+  const auto q = hn::Add(hn::Mul(v, per_w), hn::Set(d, 0.5 + 0x1p-26));
+  return hn::DemoteTo(hn::Rebind<std::int32_t, D>(), hn::Floor(q));
+}
+
+/// The quotients of R4: x, y and z over w.
+HWY_INLINE void divide_by_w(FloatVec x, FloatVec y, FloatVec z, FloatVec w, SnappedLanes& s) {
+#if HWY_MAX_BYTES >= 64
+  const hn::Rebind<double, Floats> d;
+  const auto per_w = hn::Div(hn::Set(d, 1.0), hn::PromoteTo(d, w));
+  s.x = round_quotient(d, hn::PromoteTo(d, x), per_w);
+  s.y = round_quotient(d, hn::PromoteTo(d, y), per_w);
+  s.z = round_quotient(d, hn::PromoteTo(d, z), per_w);
+#else
+  const hn::Repartition<double, Floats> d;
+  const hn::Half<Floats> half;
+  const auto one = hn::Set(d, 1.0);
+  const auto per_low = hn::Div(one, hn::PromoteTo(d, hn::LowerHalf(half, w)));
+  const auto per_high = hn::Div(one, hn::PromoteTo(d, hn::UpperHalf(half, w)));
+  const auto quotients = [&](FloatVec v) {
+    const auto low = round_quotient(d, hn::PromoteTo(d, hn::LowerHalf(half, v)), per_low);
+    const auto high = round_quotient(d, hn::PromoteTo(d, hn::UpperHalf(half, v)), per_high);
+    return hn::Combine(Ints(), high, low);
+  };
+  s.x = quotients(x);
+  s.y = quotients(y);
+  s.z = quotients(z);
+#endif
+}
+
+/// R4.
+HWY_INLINE SnappedLanes snap_central(const RowTransform& rows, const Lanes& p) {
+  const Floats d;
+  const FloatVec x = row_product(rows.x, p), y = row_product(rows.y, p), z = row_product(rows.z, p),
+                 w = row_product(rows.w, p);
+  // Powers of two times w: exact, as in double.
+  const FloatVec max_xy = hn::Mul(w, hn::Set(d, static_cast<float>(kGuardXY)));
+  const FloatVec max_z = hn::Mul(w, hn::Set(d, static_cast<float>(kGuardZ)));
+  auto valid = hn::And(hn::Ge(w, hn::Set(d, 0x1p-64F)), hn::Le(w, hn::Set(d, 0x1p64F)));
+  valid = hn::And(valid, hn::And(is_within(x, max_xy), is_within(y, max_xy)));
+  valid = hn::And(valid, is_within(z, max_z));
+  SnappedLanes s;
+  divide_by_w(x, y, z, w, s);
+  s.valid = hn::RebindMask(Ints(), valid);
+  return s;
+}
+
+/// R11.
+HWY_INLINE Mask is_inside(const RowTransform& rows, const Lanes& p, Mask mask) {
+  const Floats d;
+  for (const Row& plane : rows.clip) {
+    const auto inside = hn::Ge(row_product(plane, p), hn::Zero(d));
+    mask = hn::And(mask, hn::RebindMask(Ints(), inside));
+  }
+  return mask;
+}
+
+template <bool kIsCentral>
+HWY_INLINE SnappedLanes snap_lanes(const RowTransform& rows, const Lanes& p) {
+  if constexpr (kIsCentral) {
+    return snap_central(rows, p);
+  } else {
+    return snap_parallel(rows, p);
+  }
+}
+
+/// One bit a lane.
+HWY_INLINE std::uint64_t bits_of(Mask mask) {
+  std::array<std::uint8_t, 8> bytes{};
+  hn::StoreMaskBits(Ints(), mask, bytes.data());
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, bytes.data(), sizeof(bits));
+  return std::endian::native == std::endian::little ? bits : bits >> 56U;
+}
+
+/// Calls visit(lane) for every set bit, the lowest first. All set is the usual case.
+template <class Visit>
+HWY_INLINE void for_each_bit(std::uint64_t bits, const Visit& visit) {
+  if (bits == (std::uint64_t{1} << kLanes) - 1) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane)
+      visit(lane);
+    return;
+  }
+  for (; bits != 0; bits &= bits - 1)
+    visit(static_cast<std::size_t>(std::countr_zero(bits)));
+}
+
+}  // namespace
+#endif
+}  // namespace rangezip::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // RANGEZIP_SIMD_SNAP_INL_H
