@@ -81,27 +81,24 @@ HWY_INLINE SnappedLanes snap_parallel(const RowTransform& rows, const Lanes& p) 
 
 /// R4 for lanes in double: floor(v / w + 1/2) of the exact quotient, given 1 / w.
 ///
-/// No correction is needed. Both v and w are floats, so where the exact v / w + 1/2 is no integer,
-/// it is at least 2^-25 away from one: 2 v - (2 k + 1) w is a multiple of the lesser of the
-/// spacings of floats at 2 v and at w, and near a tie neither is below w 2^-24. With |v / w| <=
-/// 2^25 the product and the sum here err by at most 2^-27 + 2^-28. An addend between that and 2^-25
-/// less that takes exact ties up, as R4 wants, and takes nothing else across.
+/// It is rounded to nearest, and no correction is needed. Both v and w are floats, so a quotient
+/// that is no tie is at least 2^-25 away from one: 2 v - (2 k + 1) w is a multiple of the lesser of
+/// the spacings of floats at 2 v and at w, and near a tie neither is below w 2^-24. With
+/// |v / w| <= 2^25 the product and the first sum here err by at most 2^-27 + 2^-28. An addend
+/// between that and 2^-25 less that takes exact ties up, as R4 wants, and nothing else across.
 template <class D>
 HWY_INLINE hn::Vec<hn::Rebind<std::int32_t, D>> round_quotient(D d, hn::Vec<D> v,
                                                                hn::Vec<D> per_w) {
-  const auto q = hn::Add(hn::Mul(v, per_w), hn::Set(d, 0.5 + 0x1p-26));
-  return hn::DemoteTo(hn::Rebind<std::int32_t, D>(), hn::Floor(q));
+  const auto q = hn::Add(hn::Mul(v, per_w), hn::Set(d, 0x1p-26));
+  // Where doubles are a unit apart, their low bits are the nearest integer.
+  const auto integer = hn::Add(q, hn::Set(d, 0x1.8p52));
+  const hn::Rebind<std::uint32_t, D> d32;
+  const auto low = hn::TruncateTo(d32, hn::BitCast(hn::RebindToUnsigned<D>(), integer));
+  return hn::BitCast(hn::RebindToSigned<decltype(d32)>(), low);
 }
 
 /// The quotients of R4: x, y and z over w.
 HWY_INLINE void divide_by_w(FloatVec x, FloatVec y, FloatVec z, FloatVec w, SnappedLanes& s) {
-#if HWY_MAX_BYTES >= 64
-  const hn::Rebind<double, Floats> d;
-  const auto per_w = hn::Div(hn::Set(d, 1.0), hn::PromoteTo(d, w));
-  s.x = round_quotient(d, hn::PromoteTo(d, x), per_w);
-  s.y = round_quotient(d, hn::PromoteTo(d, y), per_w);
-  s.z = round_quotient(d, hn::PromoteTo(d, z), per_w);
-#else
   const hn::Repartition<double, Floats> d;
   const hn::Half<Floats> half;
   const auto one = hn::Set(d, 1.0);
@@ -115,7 +112,6 @@ HWY_INLINE void divide_by_w(FloatVec x, FloatVec y, FloatVec z, FloatVec w, Snap
   s.x = quotients(x);
   s.y = quotients(y);
   s.z = quotients(z);
-#endif
 }
 
 /// R4.
@@ -154,19 +150,19 @@ HWY_INLINE SnappedLanes snap_lanes(const RowTransform& rows, const Lanes& p) {
   }
 }
 
-/// One bit a lane.
-HWY_INLINE std::uint64_t bits_of(Mask mask) {
-  std::array<std::uint8_t, 8> bytes{};
+/// One bit a lane. Highway writes bytes: the one that counts is read alone, since a wider read
+/// would wait for it.
+HWY_INLINE unsigned bits_of(Mask mask) {
+  static_assert(kLanes <= 8);
+  std::array<std::uint8_t, 8> bytes;
   hn::StoreMaskBits(Ints(), mask, bytes.data());
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, bytes.data(), sizeof(bits));
-  return std::endian::native == std::endian::little ? bits : bits >> 56U;
+  return bytes[0];
 }
 
 /// Calls visit(lane) for every set bit, the lowest first. All set is the usual case.
 template <class Visit>
-HWY_INLINE void for_each_bit(std::uint64_t bits, const Visit& visit) {
-  if (bits == (std::uint64_t{1} << kLanes) - 1) {
+HWY_INLINE void for_each_bit(unsigned bits, const Visit& visit) {
+  if (bits == (1U << kLanes) - 1) {
     for (std::size_t lane = 0; lane < kLanes; ++lane)
       visit(lane);
     return;
