@@ -117,7 +117,7 @@ void ScenePainter::clear_layers(std::size_t count) {
   layers.resize(std::max(layers.size(), count));
   parallel_for(count, 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t layer = first; layer < last; ++layer)
-      layers[layer].assign(view_.extent().count(), kEmptyPixel);
+      layers[layer].assign(view_.extent().count() + kKeyPadding, kEmptyPixel);
   });
 }
 
@@ -133,7 +133,7 @@ std::span<const PixelKey> ScenePainter::merge_layers() {
     }
   });
   layers_ = 1;
-  return layers[0];
+  return std::span(layers[0]).first(view_.extent().count());
 }
 
 /// Draws the k-th part of `count` primitives into the k-th layer. @return what was dropped
@@ -143,7 +143,9 @@ std::size_t ScenePainter::draw_parts(std::size_t count, const Draw& draw) {
   parallel_for(layers_, 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t layer = first; layer < last; ++layer) {
       const DrawTarget target{
-          .extent = view_.extent(), .keys = memory_.layers[layer], .band = depths_};
+          .extent = view_.extent(),
+          .keys = std::span(memory_.layers[layer]).first(view_.extent().count()),
+          .band = depths_};
       dropped[layer] = draw(count * layer / layers_, count * (layer + 1) / layers_, target);
     }
   });
@@ -167,7 +169,7 @@ void ScenePainter::draw_triangles(const DrawTriangles& item, const RowTransform&
   snap_in_parallel(rows, item.positions, snapped, kernels_);
   report_.dropped_triangles += draw_parts(
       item.triangles.size(), [&](std::size_t begin, std::size_t end, const DrawTarget& target) {
-        return rangezip::draw_triangles(item, rows, snapped, begin, end, target);
+        return rangezip::draw_triangles(item, rows, snapped, begin, end, target, kernels_);
       });
 }
 
@@ -177,7 +179,7 @@ void ScenePainter::bin_points(const DrawPoints& points, const RowTransform& rows
     if (binned.room() == 0) {
       const std::span<const PixelKey> under = merge_layers();
       memory_.layers.resize(std::max<std::size_t>(memory_.layers.size(), 1));
-      memory_.layers[0].resize(view_.extent().count());
+      memory_.layers[0].resize(view_.extent().count() + kKeyPadding);
       binned.draw(under, memory_.layers[0]);
       layers_ = 1;
     }

@@ -9,6 +9,7 @@ namespace {
 void add_all(std::size_t target, SimdKernels& kernels) {
   add_point_kernels(target, kernels);
   add_moment_kernels(target, kernels);
+  add_triangle_kernels(target, kernels);
 }
 
 std::vector<SimdKernels> find_kernels() {

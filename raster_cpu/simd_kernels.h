@@ -12,6 +12,7 @@
 #include "raster_cpu/key_buffer.h"
 #include "raster_cpu/point_moments.h"
 #include "raster_cpu/tile.h"
+#include "raster_cpu/triangle_setup.h"
 
 namespace rangezip {
 
@@ -42,6 +43,18 @@ struct SimdKernels {
                             const BandLayout& layout, FragmentBins& bins) = nullptr;
   /// R9 and R12: draws fragments that bin_points() made. Writes back what it reads beside them.
   void (*draw_fragments)(const FragmentBins::Run& run, Tile& tile) = nullptr;
+  /// R6, R7, R9, R12: draws those of the triangles begin..end-1 of an item that cover a few pixels
+  /// at most, and puts the numbers of those that are left to the caller into `left`.
+  /// @return how many it looked at: whole vectors
+  /// @pre 3 * snapped.size() < 2^31
+  std::size_t (*draw_tiny_triangles)(const DrawTriangles& item,
+                                     std::span<const SnappedPosition> snapped, std::size_t begin,
+                                     std::size_t end, const DrawTarget& target,
+                                     std::vector<std::size_t>& left) = nullptr;
+  /// R6, R7, R9 for a triangle that fits_double(), without a band. Reads and writes back up to
+  /// kKeyPadding keys past the last pixel.
+  void (*fill_box)(const TriangleSetup& triangle, PrimitiveId id,
+                   const DrawTarget& target) = nullptr;
 };
 
 /// The sets of instructions that this machine has, the widest first. Found out once.
@@ -51,5 +64,6 @@ struct SimdKernels {
 /// not compiled. For simd_kernels().
 void add_point_kernels(std::size_t target, SimdKernels& kernels);
 void add_moment_kernels(std::size_t target, SimdKernels& kernels);
+void add_triangle_kernels(std::size_t target, SimdKernels& kernels);
 
 }  // namespace rangezip

@@ -5,22 +5,12 @@
 #include <vector>
 
 #include "core/raster/split_triangle.h"
-#include "raster_cpu/edge_function.h"
 #include "raster_cpu/fixed_point.h"
+#include "raster_cpu/triangle_setup.h"
 
 namespace rangezip {
 
 namespace {
-
-/// A triangle that may cover pixels: counter-clockwise, with the pixels of its box.
-struct TriangleSetup {
-  SnappedPosition a, b, c;
-  std::int64_t area = 0;  ///< doubled, in subpixels^2, greater than 0
-  std::int32_t z_min = 0;
-  PixelRange columns;
-  PixelRange rows;
-  bool is_small = false;  ///< less than 32 pixels wide and high
-};
 
 /// floor(sum of e * z / area) for edge values e >= 0 that add up to `area`, 0 <= z <= 2^26,
 /// exactly (R7): the value and the remainder.
@@ -58,8 +48,7 @@ bool is_in_depth_range(std::int64_t depth) {
 template <class Accept>
 void draw_small(const TriangleSetup& t, PrimitiveId id, const DrawTarget& target,
                 const Accept& accept) {
-  using Edge = EdgeFunction<std::int32_t>;
-  const std::array<Edge, 3> edges{Edge(t.b, t.c), Edge(t.c, t.a), Edge(t.a, t.b)};
+  const auto edges = edges_of<std::int32_t>(t);
   const std::array<std::int64_t, 3> z{t.a.z - t.z_min, t.b.z - t.z_min, t.c.z - t.z_min};
   // Values at the centre of the box's first pixel and steps to its neighbours; `margin` is how
   // far inside a centre lies, negative outside; `numerator` that of R7.
@@ -127,7 +116,7 @@ template <class Accept>
 void draw_large(const TriangleSetup& t, PrimitiveId id, const DrawTarget& target,
                 const Accept& accept) {
   using Edge = EdgeFunction<std::int64_t>;
-  const std::array<Edge, 3> edges{Edge(t.b, t.c), Edge(t.c, t.a), Edge(t.a, t.b)};
+  const std::array<Edge, 3> edges = edges_of<std::int64_t>(t);
   const std::array<std::int64_t, 3> z{std::int64_t{t.a.z} - t.z_min, std::int64_t{t.b.z} - t.z_min,
                                       std::int64_t{t.c.z} - t.z_min};
   std::int64_t numerator_step = 0;  // below 3 * 2^31 * 2^26
@@ -166,77 +155,75 @@ void draw_large(const TriangleSetup& t, PrimitiveId id, const DrawTarget& target
   }
 }
 
-/// R6: orients the triangle and finds its pixels. @return false if it draws nothing.
-bool set_up(const SnappedTriangle& corners, Facing facing, Extent extent, TriangleSetup& t) {
-  const auto& [a, b, c] = corners;
-  const auto [x_min, x_max] = std::minmax({a.x, b.x, c.x});
-  const auto [y_min, y_max] = std::minmax({a.y, b.y, c.y});
-  t.columns = on_screen(centers_between(x_min, x_max), extent.width);
-  t.rows = on_screen(centers_between(y_min, y_max), extent.height);
-  if (t.columns.is_empty() || t.rows.is_empty()) return false;
-  const auto [z_min, z_max] = std::minmax({a.z, b.z, c.z});
-  if (z_max < 0 || z_min > static_cast<std::int32_t>(kMaxDepth)) return false;
-  const std::int64_t area = EdgeFunction<std::int64_t>(a, b).at(c.x, c.y);
-  if (area == 0 || (facing == Facing::front && area < 0) || (facing == Facing::back && area > 0)) {
-    return false;
-  }
-  t.a = a;
-  t.b = area > 0 ? b : c;
-  t.c = area > 0 ? c : b;
-  t.area = area > 0 ? area : -area;
-  t.z_min = z_min;
-  constexpr std::int32_t kSmall = 32 * kSubpixels;
-  t.is_small = x_max - x_min < kSmall && y_max - y_min < kSmall;
-  return true;
-}
+/// Draws the triangles of an item one by one.
+class TrianglePainter {
+ public:
+  TrianglePainter(const DrawTriangles& item, const RowTransform& rows,
+                  std::span<const SnappedPosition> snapped, const DrawTarget& target,
+                  const SimdKernels* kernels)
+      : item_(item), rows_(rows), snapped_(snapped), target_(target), kernels_(kernels) {}
 
-template <class Accept>
-void draw_triangle(const SnappedTriangle& corners, PrimitiveId id, Facing facing,
-                   const DrawTarget& target, const Accept& accept) {
-  TriangleSetup setup;
-  if (!set_up(corners, facing, target.extent, setup)) return;
-  if (setup.is_small) {
-    draw_small(setup, id, target, accept);
-  } else {
-    draw_large(setup, id, target, accept);
-  }
-}
-
-template <class Accept>
-std::size_t draw_all(const DrawTriangles& item, const RowTransform& rows,
-                     std::span<const SnappedPosition> snapped, std::size_t begin, std::size_t end,
-                     const DrawTarget& target, const Accept& accept) {
-  std::size_t dropped = 0;
-  std::vector<SnappedTriangle> pieces;
-  for (std::size_t i = begin; i < end; ++i) {
-    const auto& [a, b, c] = item.triangles[i];
-    const PrimitiveId id = item.first_id + static_cast<PrimitiveId>(i);
-    const SnappedTriangle corners{snapped[a], snapped[b], snapped[c]};
+  void draw(std::size_t triangle) {
+    const auto& [a, b, c] = item_.triangles[triangle];
+    const PrimitiveId id = item_.first_id + static_cast<PrimitiveId>(triangle);
+    const SnappedTriangle corners{snapped_[a], snapped_[b], snapped_[c]};
     if (std::none_of(corners.begin(), corners.end(), is_rejected)) {
-      draw_triangle(corners, id, item.facing, target, accept);
-      continue;
+      draw_snapped(corners, id);
+      return;
     }
-    pieces.clear();
-    if (!split_triangle(rows, {item.positions[a], item.positions[b], item.positions[c]}, pieces)) {
-      ++dropped;
-    }
-    for (const SnappedTriangle& piece : pieces) {
-      draw_triangle(piece, id, item.facing, target, accept);
-    }
+    pieces_.clear();
+    const std::array<Vec3f, 3> positions{item_.positions[a], item_.positions[b],
+                                         item_.positions[c]};
+    if (!split_triangle(rows_, positions, pieces_)) ++dropped_;
+    for (const SnappedTriangle& piece : pieces_)
+      draw_snapped(piece, id);
   }
-  return dropped;
-}
+
+  [[nodiscard]] std::size_t dropped() const { return dropped_; }
+
+ private:
+  void draw_snapped(const SnappedTriangle& corners, PrimitiveId id) {
+    TriangleSetup setup;
+    if (!set_up(corners, item_.facing, target_.extent, setup)) return;
+    if (kernels_ != nullptr && target_.band == nullptr && setup.is_small() && setup.fits_double()) {
+      kernels_->fill_box(setup, id, target_);
+      return;
+    }
+    with_acceptance(target_, [&](const auto& accept) {
+      setup.is_small() ? draw_small(setup, id, target_, accept)
+                       : draw_large(setup, id, target_, accept);
+    });
+  }
+
+  const DrawTriangles& item_;
+  const RowTransform& rows_;
+  std::span<const SnappedPosition> snapped_;
+  const DrawTarget& target_;
+  const SimdKernels* kernels_;
+  std::vector<SnappedTriangle> pieces_;
+  std::size_t dropped_ = 0;
+};
 
 }  // namespace
 
 std::size_t draw_triangles(const DrawTriangles& item, const RowTransform& rows,
                            std::span<const SnappedPosition> snapped, std::size_t begin,
-                           std::size_t end, const DrawTarget& target) {
-  std::size_t dropped = 0;
-  with_acceptance(target, [&](const auto& accept) {
-    dropped = draw_all(item, rows, snapped, begin, end, target, accept);
-  });
-  return dropped;
+                           std::size_t end, const DrawTarget& target, const SimdKernels* kernels) {
+  TrianglePainter painter(item, rows, snapped, target, kernels);
+  // Gathering takes 32-bit places of coordinates.
+  constexpr std::size_t kMostGathered = (std::size_t{1} << 31U) / 3;
+  constexpr std::size_t kBlock = 1024;
+  if (kernels != nullptr && snapped.size() < kMostGathered) {
+    std::vector<std::size_t> left;
+    while (begin + kBlock < end) {
+      begin += kernels->draw_tiny_triangles(item, snapped, begin, begin + kBlock, target, left);
+      for (const std::size_t triangle : left)
+        painter.draw(triangle);
+    }
+  }
+  for (; begin < end; ++begin)
+    painter.draw(begin);
+  return painter.dropped();
 }
 
 }  // namespace rangezip
