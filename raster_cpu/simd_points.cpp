@@ -27,6 +27,7 @@ KernelReport snap_all(const RowTransform& rows, std::span<const Vec3f> positions
   const Ints d;
   KernelReport report;
   for (; report.processed + kLanes <= positions.size(); report.processed += kLanes) {
+    prefetch_after(positions, report.processed);
     const Lanes p = load(&positions[report.processed]);
     SnappedLanes s = snap_lanes<kIsCentral>(rows, p);
     report.rejected += kLanes - hn::CountTrue(d, s.valid);
@@ -37,16 +38,6 @@ KernelReport snap_all(const RowTransform& rows, std::span<const Vec3f> positions
     hn::StoreInterleaved3(s.x, s.y, s.z, d, &snapped[report.processed].x);
   }
   return report;
-}
-
-/// Fetches what comes some vectors after positions[at]: the hardware alone is late (a fifth of the
-/// rate, in virtual machines above all).
-HWY_INLINE void prefetch_after(std::span<const Vec3f> positions, std::size_t at) {
-  constexpr std::size_t kAhead = 256;
-  constexpr std::size_t kLine = 64 / sizeof(Vec3f);
-  const std::size_t last = positions.size() - 1;
-  hwy::Prefetch(&positions[std::min(at + kAhead, last)]);
-  if constexpr (kLanes > kLine) hwy::Prefetch(&positions[std::min(at + kAhead + kLine, last)]);
 }
 
 /// Snaps a vector of points and lowers their pixels one by one, without a branch that depends on

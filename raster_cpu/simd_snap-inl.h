@@ -8,8 +8,10 @@
 #define RANGEZIP_SIMD_SNAP_INL_H
 #endif
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
@@ -148,6 +150,18 @@ HWY_INLINE SnappedLanes snap_lanes(const RowTransform& rows, const Lanes& p) {
   } else {
     return snap_parallel(rows, p);
   }
+}
+
+/// Fetches what comes some vectors after items[at], kLanes of which are read at once: the hardware
+/// alone is late (by a fifth of the rate, in virtual machines above all).
+template <class Item>
+HWY_INLINE void prefetch_after(std::span<const Item> items, std::size_t at) {
+  static_assert(sizeof(Item) == 12);
+  constexpr std::size_t kAhead = 256;
+  constexpr std::size_t kLine = 64 / sizeof(Item);
+  const std::size_t last = items.size() - 1;
+  hwy::Prefetch(&items[std::min(at + kAhead, last)]);
+  if constexpr (kLanes > kLine) hwy::Prefetch(&items[std::min(at + kAhead + kLine, last)]);
 }
 
 /// One bit a lane. Highway writes bytes: the one that counts is read alone, since a wider read

@@ -112,6 +112,7 @@ class TinyTriangles {
   /// The triangles from `at` on. @return a bit for each that is not tiny and may draw something
   HWY_INLINE unsigned draw(std::size_t at) {
     const Ints d;
+    prefetch_after(item_.triangles, at);
     IntVec a, b, c;
     hn::LoadInterleaved3(d, reinterpret_cast<const std::int32_t*>(&item_.triangles[at]), a, b, c);
     Corners p;
@@ -230,7 +231,7 @@ class TinyTriangles {
   }
 
   /// Pixels: larger boxes leave too many lanes idle.
-  static constexpr int kTinyBox = 4;
+  static constexpr int kTinyBox = 6;
 
   const DrawTriangles& item_;
   std::span<const SnappedPosition> snapped_;

@@ -53,9 +53,12 @@ void check_points(const std::string& where, const DrawPoints& points, const Rast
 
 void check_triangles(const std::string& where, const DrawTriangles& item) {
   check_placement(where, item.world_from_item);
-  std::uint32_t largest = 0;
-  for (const Triangle& t : item.triangles)
-    largest = std::max({largest, t[0], t[1], t[2]});
+  Triangle most{};  // one maximum per corner: they do not wait for each other
+  for (const Triangle& t : item.triangles) {
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      most[corner] = std::max(most[corner], t[corner]);
+  }
+  const std::uint32_t largest = std::max({most[0], most[1], most[2]});
   if (!item.triangles.empty() && largest >= item.positions.size()) {
     throw InvalidArgument(where + ": corner index " + std::to_string(largest) +
                           " is out of range; the item has " +
