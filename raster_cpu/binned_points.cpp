@@ -22,7 +22,7 @@ void BinnedPoints::begin(Extent extent, int largest, const DepthBand* depths,
 
 void BinnedPoints::forget() {
   pending_ = 0;
-  for (FragmentBins& bins : bins_)
+  for (PointBins& bins : bins_)
     bins.reset(static_cast<std::size_t>(layout_.count()));
 }
 
@@ -63,8 +63,8 @@ void BinnedPoints::draw_bands(std::span<const PixelKey> under, Image&& out) {
       Tile& tile = tiles_[part];
       for (int band = next++; band < layout_.count(); band = next++) {
         tile.load(layout_, band, under, depths_);
-        for (const FragmentBins& bins : bins_) {
-          for (const FragmentBins::Run& run : bins.runs(static_cast<std::size_t>(band)))
+        for (const PointBins& bins : bins_) {
+          for (const PointBins::Run& run : bins.runs(static_cast<std::size_t>(band)))
             kernels_->draw_fragments(run, tile);
         }
         tile.store(out);

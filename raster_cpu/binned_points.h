@@ -6,8 +6,9 @@
 #include "core/raster/draw_item.h"
 #include "core/raster/framebuffer.h"
 #include "core/raster/row_transform.h"
-#include "raster_cpu/fragment_bins.h"
+#include "raster_cpu/band_layout.h"
 #include "raster_cpu/key_buffer.h"
+#include "raster_cpu/point_bins.h"
 #include "raster_cpu/simd_kernels.h"
 #include "raster_cpu/tile.h"
 
@@ -46,8 +47,8 @@ class BinnedPoints {
   const DepthBand* depths_ = nullptr;
   BandLayout layout_;
   std::size_t pending_ = 0;
-  std::vector<FragmentBins> bins_;  ///< one a thread
-  std::vector<Tile> tiles_;         ///< one a thread
+  std::vector<PointBins> bins_;  ///< one a thread
+  std::vector<Tile> tiles_;      ///< one a thread
 };
 
 }  // namespace rangezip

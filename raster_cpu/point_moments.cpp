@@ -1,5 +1,6 @@
 #include "raster_cpu/point_moments.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 
@@ -27,55 +28,37 @@ void add_term(PixelMoments& sums, std::int32_t dx, std::int32_t dy, std::int64_t
   sums.w_vote += std::int64_t{w} * vote;
 }
 
-bool is_summed(const SnappedPosition& p, Extent extent) {
-  const int x = first_near(p.x);
-  const int y = first_near(p.y);
-  return x >= -1 && x < extent.width && y >= -1 && y < extent.height &&
-         static_cast<std::uint32_t>(p.z) <= kMaxDepth;
-}
-
-/// A point touches the rows first_near(y) and first_near(y) + 1; the upper one chooses the bin, so
-/// bin k touches the rows from k * kRows - 1 to (k + 1) * kRows - 1.
-std::size_t bin_of(const SnappedPosition& p) {
-  return static_cast<std::size_t>((first_near(p.y) + 1) / RowBins::kRows);
-}
-
 }  // namespace
 
-void throw_too_many_points(const MomentTarget& target, std::size_t pixel) {
+void count_points(const MomentTarget& target, std::size_t pixel, std::uint32_t points) {
+  target.counts[pixel] += points;
+  if (target.counts[pixel] <= kMaxPointsPerPixel) return;
   const auto width = static_cast<std::size_t>(target.extent.width);
   throw Error("accumulate: a pixel takes at most 2^19 points, more lie around pixel (" +
               std::to_string(pixel % width) + ", " + std::to_string(pixel / width) +
               "); use smaller pixels");
 }
 
-void RowBins::fill(std::span<const SnappedPosition> points, std::span<const std::int8_t> votes,
-                   Extent extent) {
-  // A counting sort: sizes, starts, then every point to the next place of its bin.
-  const auto bins = static_cast<std::size_t>(extent.height / kRows) + 1;
-  starts_.assign(bins + 1, 0);
-  for (const SnappedPosition& p : points) {
-    if (is_summed(p, extent)) ++starts_[bin_of(p) + 1];
-  }
-  for (std::size_t k = 0; k < bins; ++k)
-    starts_[k + 1] += starts_[k];
-  points_.resize(starts_[bins]);
-  std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!is_summed(points[i], extent)) continue;
-    points_[next[bin_of(points[i])]++] = {points[i], votes.empty() ? 0 : votes[i]};
-  }
-}
-
-std::span<const RowBins::Point> RowBins::touching(int first, int last) const {
-  const auto first_bin = static_cast<std::size_t>(first / kRows);
-  const auto last_bin = static_cast<std::size_t>(last / kRows);
-  return std::span(points_).subspan(starts_[first_bin], starts_[last_bin + 1] - starts_[first_bin]);
-}
-
-void add_moments(std::span<const RowBins::Point> points, PixelRange rows,
+void add_moments(const SnappedPosition& point, int vote, PixelRange rows,
                  const MomentTarget& target) {
-  for_each_term(points, rows, target, add_term);
+  if (point.z < 0 || point.z > static_cast<std::int32_t>(kMaxDepth)) return;
+  const AccumulateWindow& window = *target.window;
+  const PixelRange columns =
+      on_screen({first_near(point.x), first_near(point.x) + 1}, target.extent.width);
+  const int y0 = first_near(point.y);
+  for (int y = std::max(y0, rows.first); y <= std::min(y0 + 1, rows.last); ++y) {
+    for (int x = columns.first; x <= columns.last; ++x) {
+      const std::int32_t dx = point.x - pixel_center(x);
+      const std::int32_t dy = point.y - pixel_center(y);
+      if (dx == -kSubpixels || dy == -kSubpixels) continue;  // a whole pixel away: no weight
+      const std::size_t pixel = target.extent.index({x, y});
+      if (point.z < window.band.lower.pixels()[pixel]) continue;
+      if (point.z > window.band.upper.pixels()[pixel]) continue;
+      count_points(target, pixel, 1);
+      const std::int64_t z = std::int64_t{point.z} - window.reference.pixels()[pixel];
+      add_term(target.moments[pixel], dx, dy, z >> window.shift, vote);
+    }
+  }
 }
 
 }  // namespace rangezip

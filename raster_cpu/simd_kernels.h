@@ -8,8 +8,9 @@
 
 #include "core/raster/draw_item.h"
 #include "core/raster/row_transform.h"
-#include "raster_cpu/fragment_bins.h"
+#include "raster_cpu/band_layout.h"
 #include "raster_cpu/key_buffer.h"
+#include "raster_cpu/point_bins.h"
 #include "raster_cpu/point_moments.h"
 #include "raster_cpu/tile.h"
 #include "raster_cpu/triangle_setup.h"
@@ -34,15 +35,20 @@ struct SimdKernels {
   /// R2-R5, R9, R11, R12 for points of one pixel: as draw_points().
   KernelReport (*draw_single_pixels)(const RowTransform& rows, std::span<const Vec3f> positions,
                                      PrimitiveId first_id, const DrawTarget& target) = nullptr;
-  /// R13: as add_moments(). Null for instructions with less than four 64-bit lanes.
-  void (*add_moments)(std::span<const RowBins::Point> points, PixelRange rows,
+  /// R2-R4, R11: sorts the points that R13 sums into bins, by moment_cell.h.
+  /// @param votes one a point, or empty. @return number rejected by R3 or R4
+  std::size_t (*bin_moments)(const RowTransform& rows, std::span<const Vec3f> positions,
+                             std::span<const std::int8_t> votes, Extent extent,
+                             PointBins& bins) = nullptr;
+  /// R13 for entries of bin `bin`, in the pixel rows `rows`: as add_moments().
+  void (*add_moments)(std::span<const BinEntry> entries, std::size_t bin, PixelRange rows,
                       const MomentTarget& target) = nullptr;
   /// R2-R5 and R11 for points of size 1 to kMaxBinnedSize: sorts those that are to be drawn into
   /// bins. @return number rejected by R3 or R4. @pre at most kMaxRun positions
   std::size_t (*bin_points)(const RowTransform& rows, std::span<const Vec3f> positions, int size,
-                            const BandLayout& layout, FragmentBins& bins) = nullptr;
+                            const BandLayout& layout, PointBins& bins) = nullptr;
   /// R9 and R12: draws fragments that bin_points() made. Writes back what it reads beside them.
-  void (*draw_fragments)(const FragmentBins::Run& run, Tile& tile) = nullptr;
+  void (*draw_fragments)(const PointBins::Run& run, Tile& tile) = nullptr;
   /// R6, R7, R9, R12: draws those of the triangles begin..end-1 of an item that cover a few pixels
   /// at most, and puts the numbers of those that are left to the caller into `left`.
   /// @return how many it looked at: whole vectors

@@ -1,8 +1,8 @@
-// R13 by vectors of 64-bit lanes.
+// R13 by vectors of points, and of the four pixels of a point.
 #include "raster_cpu/simd_kernels.h"
 
+#include <algorithm>
 #include <array>
-#include <cstdlib>
 
 // Vectors whose length is known only at run time can be no members; ARM has NEON beside them.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
@@ -12,6 +12,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "raster_cpu/moment_cell.h"
+#include "raster_cpu/simd_bins-inl.h"
 #include "raster_cpu/simd_snap-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,82 +21,219 @@ namespace rangezip::HWY_NAMESPACE {
 #if HWY_TARGET != HWY_SCALAR
 namespace {
 
-#if HWY_MAX_BYTES >= 32
-using Sums = hn::CappedTag<std::int64_t, 8>;
+/// Coordinates relative to cells.
+HWY_INLINE IntVec cell_number(IntVec v) {
+  const Ints d;
+  return hn::Add(hn::ShiftRight<kSubpixelBits>(hn::Sub(v, hn::Set(d, kHalfPixel))), hn::Set(d, 1));
+}
+HWY_INLINE IntVec cell_offset(IntVec v) {
+  const Ints d;
+  return hn::And(hn::Sub(v, hn::Set(d, kHalfPixel)), hn::Set(d, kSubpixels - 1));
+}
+
+/// 0 <= v < end.
+HWY_INLINE Mask is_below(IntVec v, std::int32_t end) {
+  const Ints d;
+  return hn::And(hn::Gt(v, hn::Set(d, -1)), hn::Lt(v, hn::Set(d, end)));
+}
+
+template <bool kIsCentral>
+std::size_t bin_all(const RowTransform& rows, std::span<const Vec3f> positions,
+                    std::span<const std::int8_t> votes, Extent extent, PointBins& bins) {
+  const Ints d;
+  return for_each_vector(positions, [&](const Vec3f* at, std::size_t number) {
+    const Lanes p = load(at);
+    const SnappedLanes s = snap_lanes<kIsCentral>(rows, p);
+    const IntVec x = cell_number(s.x), y = cell_number(s.y);
+    Mask summed = is_inside(rows, p, s.valid);
+    summed =
+        hn::And(summed, hn::And(is_below(x, extent.width + 1), is_below(y, extent.height + 1)));
+    summed = hn::And(summed, is_below(s.z, static_cast<std::int32_t>(kMaxDepth) + 1));
+    const IntVec row = hn::And(y, hn::Set(d, kCellRows - 1));
+    const IntVec cell = hn::Or(hn::ShiftLeft<kCellRowBits>(x), row);
+    const IntVec high = hn::Or(hn::ShiftLeft<kCellBits>(cell),
+                               hn::Or(hn::ShiftLeft<8>(cell_offset(s.x)), cell_offset(s.y)));
+    IntVec low = hn::ShiftLeft<8>(s.z);
+    if (!votes.empty()) {
+      std::array<std::int32_t, kLanes> lane_votes{};
+      for (std::size_t lane = 0; lane < std::min(kLanes, votes.size() - number); ++lane)
+        lane_votes[lane] = static_cast<std::uint8_t>(votes[number + lane]);
+      low = hn::Or(low, hn::LoadU(d, lane_votes.data()));
+    }
+    append_lanes(bins, hn::ShiftRight<kCellRowBits>(y), high, low, summed);
+    return kLanes - hn::CountTrue(d, s.valid);
+  });
+}
+
+std::size_t bin_moments(const RowTransform& rows, std::span<const Vec3f> positions,
+                        std::span<const std::int8_t> votes, Extent extent, PointBins& bins) {
+  return rows.is_central ? bin_all<true>(rows, positions, votes, extent, bins)
+                         : bin_all<false>(rows, positions, votes, extent, bins);
+}
+
+/// The four pixels around a cell, or as many as a vector has lanes: lower left, lower right, upper
+/// left, upper right.
+using Sums = hn::CappedTag<std::int64_t, 4>;
 using SumVec = hn::Vec<Sums>;
+constexpr std::size_t kSumLanes = hn::MaxLanes(Sums());
+constexpr std::size_t kSumVectors = 4 / kSumLanes;
+/// Each in the lower half of a 64-bit lane.
+using Narrow = hn::Repartition<std::int32_t, Sums>;
 
-/// Which of the factors 1, dx, dy and z a lane takes: sums 0 to 7 of PixelMoments are w times the
-/// product of two of them. The last two, w z dy and w vote, are left to scalar code.
-constexpr std::array<std::int64_t, 8> kFirstFactor{0, 1, 2, 1, 1, 2, 3, 3};
-constexpr std::array<std::int64_t, 8> kSecondFactor{0, 0, 0, 1, 2, 2, 0, 1};
+HWY_INLINE SumVec product(SumVec a, SumVec b) {
+  return hn::MulEven(hn::BitCast(Narrow(), a), hn::BitCast(Narrow(), b));
+}
 
-/// The lanes that begin at sum `first`.
-class SumLanes {
+/// Sums of the points of one cell for its pixels, in registers.
+class CellSums {
  public:
-  explicit SumLanes(std::size_t first)
-      : which_first_(hn::LoadU(d_, &kFirstFactor[first])),
-        which_second_(hn::LoadU(d_, &kSecondFactor[first])) {}
+  /// @param left, below the pixel at the cell's lower left
+  CellSums(const AccumulateWindow& window, std::size_t lower_row, std::size_t upper_row)
+      : shift_(window.shift) {
+    for (std::size_t k = 0; k < kSumVectors; ++k) {
+      lower_[k] = load(window.band.lower, lower_row, upper_row, k);
+      upper_[k] = load(window.band.upper, lower_row, upper_row, k);
+      reference_[k] = load(window.reference, lower_row, upper_row, k);
+      count_[k] = hn::Zero(Sums());
+      for (auto& sum : sums_)
+        sum[k] = hn::Zero(Sums());
+    }
+  }
 
-  /// Adds w times the products to the sums. All factors are below 2^31, so the even halves of the
-  /// lanes hold them.
-  void add(std::int64_t* sums, SumVec dx, SumVec dy, SumVec z, SumVec w) const {
-    const hn::Repartition<std::int32_t, Sums> d32;
-    const auto first = hn::BitCast(d32, choose(which_first_, dx, dy, z));
-    const auto second = hn::BitCast(d32, choose(which_second_, dx, dy, z));
-    const auto product =
-        hn::MulEven(hn::BitCast(d32, hn::MulEven(first, second)), hn::BitCast(d32, w));
-    hn::StoreU(hn::Add(hn::LoadU(d_, sums), product), d_, sums);
+  HWY_INLINE void add(BinEntry entry) {
+    const Sums d;
+    const Narrow dn;
+    const SumVec z = hn::Set(d, depth_in_cell(entry));
+    const SumVec vote = hn::Set(d, vote_of(entry));
+    const SumVec offset_from_left = hn::Set(d, offset_x(entry));
+    const SumVec offset_from_below = hn::Set(d, offset_y(entry));
+    const SumVec whole = hn::Set(d, kSubpixels);
+    for (std::size_t k = 0; k < kSumVectors; ++k) {
+      const SumVec dx = hn::Sub(offset_from_left, to_right());
+      const SumVec dy = hn::Sub(offset_from_below, to_above(k));
+      const auto distance = [&](SumVec v) {
+        return hn::BitCast(d, hn::Sub(hn::BitCast(dn, whole), hn::Abs(hn::BitCast(dn, v))));
+      };
+      const auto out = hn::Or(hn::Gt(lower_[k], z), hn::Gt(z, upper_[k]));
+      const SumVec w = hn::IfThenZeroElse(out, product(distance(dx), distance(dy)));
+      const SumVec from_reference =
+          hn::BitCast(d, hn::ShiftRightSame(hn::BitCast(dn, hn::Sub(z, reference_[k])), shift_));
+      const SumVec w_dx = product(w, dx), w_dy = product(w, dy);
+      count_[k] = hn::Sub(count_[k], hn::VecFromMask(d, hn::Gt(w, hn::Zero(d))));
+      const std::array<SumVec, 10> terms{w,
+                                         w_dx,
+                                         w_dy,
+                                         product(w_dx, dx),
+                                         product(w_dx, dy),
+                                         product(w_dy, dy),
+                                         product(w, from_reference),
+                                         product(w_dx, from_reference),
+                                         product(w_dy, from_reference),
+                                         product(w, vote)};
+      for (std::size_t i = 0; i < terms.size(); ++i)
+        sums_[i][k] = hn::Add(sums_[i][k], terms[i]);
+    }
+  }
+
+  /// Adds the sums to the pixels from `lower_row` and `upper_row` on.
+  HWY_INLINE void store(const MomentTarget& target, std::size_t lower_row,
+                        std::size_t upper_row) const {
+    const std::array<std::size_t, 4> pixels{lower_row, lower_row + 1, upper_row, upper_row + 1};
+    alignas(64) std::array<std::int64_t, 4> counts;
+    for (std::size_t k = 0; k < kSumVectors; ++k)
+      hn::Store(count_[k], Sums(), &counts[k * kSumLanes]);
+    for (std::size_t i = 0; i < 4; ++i)
+      count_points(target, pixels[i], static_cast<std::uint32_t>(counts[i]));
+    for (std::size_t i = 0; i < sums_.size(); i += 2) {
+      for (std::size_t k = 0; k < kSumVectors; ++k) {
+        const auto left = hn::InterleaveLower(Sums(), sums_[i][k], sums_[i + 1][k]);
+        const auto right = hn::InterleaveUpper(Sums(), sums_[i][k], sums_[i + 1][k]);
+        add_pairs(target, left, i, pixels[2 * k], pixels[2]);
+        add_pairs(target, right, i, pixels[2 * k + 1], pixels[3]);
+      }
+    }
   }
 
  private:
-  [[nodiscard]] SumVec choose(SumVec which, SumVec dx, SumVec dy, SumVec z) const {
-    SumVec factor = hn::Set(d_, 1);
-    factor = hn::IfThenElse(hn::Eq(which, hn::Set(d_, 1)), dx, factor);
-    factor = hn::IfThenElse(hn::Eq(which, hn::Set(d_, 2)), dy, factor);
-    return hn::IfThenElse(hn::Eq(which, hn::Set(d_, 3)), z, factor);
+  using Pair = hn::CappedTag<std::int64_t, 2>;
+
+  /// Two values of one row of pixels, or two of each.
+  static HWY_INLINE SumVec load(const Grid<std::int32_t>& grid, std::size_t lower_row,
+                                std::size_t upper_row, std::size_t k) {
+    const hn::CappedTag<std::int32_t, 2> two;
+    const std::int32_t* const pixels = grid.pixels().data();
+#if HWY_MAX_BYTES >= 32
+    static_cast<void>(k);
+    const hn::CappedTag<std::int32_t, 4> four;
+    return hn::PromoteTo(Sums(), hn::Combine(four, hn::LoadU(two, pixels + upper_row),
+                                             hn::LoadU(two, pixels + lower_row)));
+#else
+    return hn::PromoteTo(Sums(), hn::LoadU(two, pixels + (k == 0 ? lower_row : upper_row)));
+#endif
   }
 
-  Sums d_;
-  SumVec which_first_;
-  SumVec which_second_;
+  static HWY_INLINE SumVec to_right() {
+    alignas(32) static constexpr std::array<std::int64_t, 4> kRight{0, kSubpixels, 0, kSubpixels};
+    return hn::Load(Sums(), kRight.data());
+  }
+  static HWY_INLINE SumVec to_above(std::size_t k) {
+    alignas(32) static constexpr std::array<std::int64_t, 4> kAbove{0, 0, kSubpixels, kSubpixels};
+    return hn::Load(Sums(), &kAbove[k * kSumLanes]);
+  }
+
+  /// Adds two sums, from number `first` on, to one pixel, or to two.
+  static HWY_INLINE void add_pairs(const MomentTarget& target, SumVec pairs, std::size_t first,
+                                   std::size_t pixel, [[maybe_unused]] std::size_t upper) {
+#if HWY_MAX_BYTES >= 32
+    add_pair(target, hn::LowerHalf(Pair(), pairs), first, pixel);
+    add_pair(target, hn::UpperHalf(Pair(), pairs), first, upper);
+#else
+    add_pair(target, pairs, first, pixel);
+#endif
+  }
+  static HWY_INLINE void add_pair(const MomentTarget& target, hn::Vec<Pair> pair, std::size_t first,
+                                  std::size_t pixel) {
+    static_assert(sizeof(PixelMoments) == 10 * sizeof(std::int64_t));
+    std::int64_t* const at = &target.moments[pixel].w + first;
+    hn::StoreU(hn::Add(hn::LoadU(Pair(), at), pair), Pair(), at);
+  }
+
+  int shift_;
+  std::array<SumVec, kSumVectors> lower_, upper_, reference_, count_;
+  std::array<std::array<SumVec, kSumVectors>, 10> sums_;
 };
 
-HWY_INLINE void add_terms(PixelMoments& sums,
-                          const std::array<SumLanes, 8 / hn::MaxLanes(Sums())>& lanes,
-                          std::int32_t dx, std::int32_t dy, std::int64_t z, int vote) {
-  const Sums d;
-  const std::int64_t w = std::int64_t{kSubpixels - std::abs(dx)} * (kSubpixels - std::abs(dy));
-  const SumVec dxs = hn::Set(d, dx), dys = hn::Set(d, dy), zs = hn::Set(d, z), ws = hn::Set(d, w);
-  std::int64_t* at = &sums.w;
-  for (const SumLanes& part : lanes) {
-    part.add(at, dxs, dys, zs, ws);
-    at += hn::MaxLanes(d);
-  }
-  sums.w_z_dy += w * z * dy;
-  sums.w_vote += w * vote;
-}
-
-void add_moments(std::span<const RowBins::Point> points, PixelRange rows,
+void add_moments(std::span<const BinEntry> entries, std::size_t bin, PixelRange rows,
                  const MomentTarget& target) {
-  static_assert(sizeof(PixelMoments) == 10 * sizeof(std::int64_t));
-  const auto lanes = [] {
-    if constexpr (hn::MaxLanes(Sums()) == 8) {
-      return std::array{SumLanes(0)};
-    } else {
-      return std::array{SumLanes(0), SumLanes(4)};
+  for (std::size_t begin = 0; begin < entries.size();) {
+    std::size_t end = begin + 1;
+    while (end < entries.size() && cell_of(entries[end]) == cell_of(entries[begin]))
+      ++end;
+    const auto run = entries.subspan(begin, end - begin);
+    begin = end;
+    const Pixel cell = cell_position(run.front(), bin);
+    const bool has_four =
+        cell.x > 0 && cell.x < target.extent.width && cell.y > rows.first && cell.y <= rows.last;
+    if (!has_four) {
+      for (const BinEntry entry : run)
+        rangezip::add_moments(position_in_cell(entry, cell), vote_of(entry), rows, target);
+      continue;
     }
-  }();
-  for_each_term(points, rows, target,
-                [&](PixelMoments& sums, std::int32_t dx, std::int32_t dy, std::int64_t z,
-                    int vote) { add_terms(sums, lanes, dx, dy, z, vote); });
+    const std::size_t upper = target.extent.index({cell.x - 1, cell.y});
+    const std::size_t lower = upper - static_cast<std::size_t>(target.extent.width);
+    CellSums sums(*target.window, lower, upper);
+    for (const BinEntry entry : run)
+      sums.add(entry);
+    sums.store(target, lower, upper);
+  }
 }
-#endif
 
 }  // namespace
 #endif
 
 void add_moment_kernels([[maybe_unused]] SimdKernels& kernels) {
-#if HWY_TARGET != HWY_SCALAR && HWY_MAX_BYTES >= 32
+#if HWY_TARGET != HWY_SCALAR
+  kernels.bin_moments = &bin_moments;
   kernels.add_moments = &add_moments;
 #endif
 }

@@ -2,8 +2,6 @@
 #include "raster_cpu/simd_kernels.h"
 
 #include <algorithm>
-#include <array>
-#include <limits>
 
 // Vectors whose length is known only at run time can be no members; ARM has NEON beside them.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
@@ -14,6 +12,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "raster_cpu/simd_bins-inl.h"
 #include "raster_cpu/simd_snap-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -103,7 +102,7 @@ KernelReport draw_single_pixels(const RowTransform& rows, std::span<const Vec3f>
 template <bool kIsCentral, bool kIsSingle>
 class PointBinner {
  public:
-  PointBinner(const RowTransform& rows, int size, const BandLayout& layout, FragmentBins& bins)
+  PointBinner(const RowTransform& rows, int size, const BandLayout& layout, PointBins& bins)
       : rows_(rows), layout_(layout), bins_(bins), size_(kIsSingle ? 1 : size) {}
 
   /// Points `number` and up of the run. @return number of lanes rejected by R3 or R4
@@ -150,56 +149,27 @@ class PointBinner {
     const auto low = hn::Or(hn::ShiftLeft<kRunBits>(z), id);
     const auto high = hn::Or(hn::ShiftLeft<kFragmentDepthBits - kDepthInLow>(pixel),
                              hn::ShiftRight<kDepthInLow>(z));
-    alignas(64) std::array<Fragment, kLanes> fragments;
-    alignas(64) std::array<std::int32_t, kLanes> bands;
-    auto* const halves = reinterpret_cast<std::int32_t*>(fragments.data());
-    if constexpr (std::endian::native == std::endian::little) {
-      hn::StoreInterleaved2(low, high, d, halves);
-    } else {
-      hn::StoreInterleaved2(high, low, d, halves);
-    }
-    hn::Store(band, d, bands.data());
-    Fragment** const cursors = bins_.cursors();
-    for_each_bit(bits_of(which), [&](std::size_t lane) {
-      const auto bin = static_cast<std::size_t>(bands[lane]);
-      Fragment* cursor = cursors[bin];
-      *cursor++ = fragments[lane];
-      hwy::Prefetch(cursor + kPrefetched);
-      cursors[bin] = FragmentBins::is_block_full(cursor) ? bins_.grow(bin, cursor) : cursor;
-    });
+    append_lanes(bins_, band, high, low, which);
   }
-
-  /// How far ahead of its cursor a bin fetches memory: with many bins the hardware does not.
-  static constexpr std::ptrdiff_t kPrefetched = 16;
 
   const RowTransform& rows_;
   const BandLayout& layout_;
-  FragmentBins& bins_;
+  PointBins& bins_;
   int size_;
   IntVec lane_numbers_ = hn::Iota(Ints(), 0);
 };
 
 template <bool kIsCentral, bool kIsSingle>
 std::size_t bin_all(const RowTransform& rows, std::span<const Vec3f> positions, int size,
-                    const BandLayout& layout, FragmentBins& bins) {
+                    const BandLayout& layout, PointBins& bins) {
   PointBinner<kIsCentral, kIsSingle> binner(rows, size, layout, bins);
-  std::size_t rejected = 0;
-  std::size_t i = 0;
-  for (; i + kLanes <= positions.size(); i += kLanes) {
-    prefetch_after(positions, i);
-    rejected += binner.add(&positions[i], static_cast<std::uint32_t>(i));
-  }
-  if (i == positions.size()) return rejected;
-  // The last vector is filled up with points that R3 and R4 reject.
-  std::array<Vec3f, kLanes> last;
-  last.fill(Vec3f{std::numeric_limits<float>::quiet_NaN()});
-  std::copy(positions.begin() + static_cast<std::ptrdiff_t>(i), positions.end(), last.begin());
-  rejected += binner.add(last.data(), static_cast<std::uint32_t>(i));
-  return rejected - (kLanes - (positions.size() - i));
+  return for_each_vector(positions, [&](const Vec3f* at, std::size_t number) {
+    return binner.add(at, static_cast<std::uint32_t>(number));
+  });
 }
 
 std::size_t bin_points(const RowTransform& rows, std::span<const Vec3f> positions, int size,
-                       const BandLayout& layout, FragmentBins& bins) {
+                       const BandLayout& layout, PointBins& bins) {
   if (size == 1) {
     return rows.is_central ? bin_all<true, true>(rows, positions, 1, layout, bins)
                            : bin_all<false, true>(rows, positions, 1, layout, bins);
@@ -213,9 +183,9 @@ PixelKey key_of(Fragment fragment, PrimitiveId first_id) {
   return make_key(depth_of(fragment), first_id + number_in_run(fragment));
 }
 
-void lower_pixels(const FragmentBins::Run& run, PixelKey* keys) {
+void lower_pixels(const PointBins::Run& run, PixelKey* keys) {
   constexpr std::ptrdiff_t kAhead = 64;  // eight cache lines
-  for (const Fragment& fragment : run.fragments) {
+  for (const Fragment& fragment : run.entries) {
     hwy::Prefetch(&fragment + kAhead);
     PixelKey& key = keys[tile_pixel(fragment)];
     key = std::min(key, key_of(fragment, run.first_id));
@@ -225,11 +195,11 @@ void lower_pixels(const FragmentBins::Run& run, PixelKey* keys) {
 /// Lowers squares of pixels, with vectors that reach past each row of a square and write there what
 /// they read.
 template <int kSize>
-void lower_squares(const FragmentBins::Run& run, PixelKey* keys, std::size_t stride) {
+void lower_squares(const PointBins::Run& run, PixelKey* keys, std::size_t stride) {
   using Keys = hn::CappedTag<PixelKey, std::bit_ceil(static_cast<unsigned>(kSize))>;
   const Keys d;
   constexpr std::size_t kKeys = hn::MaxLanes(Keys());
-  for (const Fragment fragment : run.fragments) {
+  for (const Fragment fragment : run.entries) {
     const auto wanted = hn::Set(d, key_of(fragment, run.first_id));
     PixelKey* row = keys + tile_pixel(fragment);
     for (int y = 0; y < kSize; ++y, row += stride) {
@@ -247,10 +217,10 @@ void lower_squares(const FragmentBins::Run& run, PixelKey* keys, std::size_t str
 }
 
 /// R12: a pixel counts where the depth lies in its interval.
-void lower_in_band(const FragmentBins::Run& run, PixelKey* keys, std::size_t stride,
+void lower_in_band(const PointBins::Run& run, PixelKey* keys, std::size_t stride,
                    const Tile::Depths& depths) {
   const auto size = static_cast<std::size_t>(run.point_size);
-  for (const Fragment fragment : run.fragments) {
+  for (const Fragment fragment : run.entries) {
     const PixelKey wanted = key_of(fragment, run.first_id);
     const auto depth = static_cast<std::int32_t>(depth_of(fragment));
     std::size_t row = tile_pixel(fragment);
@@ -263,7 +233,7 @@ void lower_in_band(const FragmentBins::Run& run, PixelKey* keys, std::size_t str
   }
 }
 
-void draw_fragments(const FragmentBins::Run& run, Tile& tile) {
+void draw_fragments(const PointBins::Run& run, Tile& tile) {
   PixelKey* const keys = tile.keys();
   const Tile::Depths depths = tile.depths();
   if (depths.lower != nullptr) return lower_in_band(run, keys, tile.stride(), depths);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/raster/framebuffer.h"
-#include "raster_cpu/fragment_bins.h"
+#include "raster_cpu/band_layout.h"
 #include "raster_cpu/key_buffer.h"
 
 namespace rangezip {
