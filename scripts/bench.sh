@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
-# Builds the preset `release`, runs the benchmarks of speed, stores their results under
-# benchmarks/results, named by the machine, and prints them.
+# Builds the preset `release`, runs the benchmarks of speed, stores their results as
+# benchmarks/results/<what>-<machine>.json, and prints README.md's tables of the CPU rasterizer;
+# what the benchmarks say meanwhile goes to the error stream. quick takes two minutes and 1 GB,
+# full half an hour and 4 GB.
 # Usage: scripts/bench.sh [quick|full]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -10,14 +12,23 @@ extent=${1:-quick}
   echo "usage: scripts/bench.sh [quick|full]" >&2
   exit 1
 }
-scripts/install-deps.sh
+scripts/install-deps.sh >&2
 cmake --preset release >/dev/null
-cmake --build --preset release --target raster_benchmark io_benchmark -- --quiet
+cmake --build --preset release --target raster_benchmark io_benchmark -- --quiet >&2
 
 model=$(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo | head -n 1)
 machine=$(printf '%s-%s-threads' "${model:-unknown}" "$(nproc)" | tr -cs '[:alnum:]-' '-')
-mkdir -p benchmarks/results
-echo "machine   ${model:-unknown}, $(nproc) threads, load $(cut -d' ' -f1 /proc/loadavg)"
-build/release/benchmarks/raster_benchmark "$extent" --json "benchmarks/results/raster-$machine.json"
-build/release/benchmarks/io_benchmark | tee "benchmarks/results/io-$machine.txt"
-echo "results   benchmarks/results/{raster,io}-$machine.*"
+revision=$(git describe --always --dirty 2>/dev/null || echo unknown)
+results=benchmarks/results
+mkdir -p "$results"
+
+# measure WHAT [ARGUMENT...]: runs WHAT_benchmark.
+measure() {
+  local file=$results/$1-$machine.json
+  "build/release/benchmarks/$1_benchmark" "${@:2}" --revision "$revision" --json "$file" >&2
+  echo "stored in $file" >&2
+}
+
+measure raster "$extent"
+measure io
+benchmarks/table.py "$results/raster-$machine.json"

@@ -1,297 +1,331 @@
 // How fast the CPU rasterizer draws: items a second of processor time, the best of several runs.
-//   raster_benchmark [quick|full] [--json FILE]
-// Every row stands beside the limit of the same run: reading the bytes of its points once.
-// quick: the scenes that have a target, 10 M points; full: the whole ladder.
+//   raster_benchmark [quick|full] [--only WHAT]... [--json FILE] [--revision TEXT]
+// quick: the scenes that have a target, 10 M points, about a minute; full: those and a ladder of
+// sizes. WHAT: points, triangles, accumulate, threads (two against one), native (OSMesa beside the
+// CPU rasterizer); default: all. TEXT: what the JSON says the program was built from.
+// The limits stand in the same run: reading and copying the bytes of each scene.
+// benchmarks/table.py makes tables of the JSON.
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
+#include <array>
 #include <cstdio>
-#include <cstring>
-#include <ctime>
-#include <fstream>
-#include <functional>
-#include <nlohmann/json.hpp>
-#include <random>
+#include <exception>
+#include <optional>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
-#include "core/base/parallel.h"
-#include "core/raster/draw_item.h"
-#include "core/view/view.h"
+#include "benchmarks/speed/measure.h"
+#include "benchmarks/speed/raster_cases.h"
+#include "benchmarks/speed/raster_scenes.h"
+#include "benchmarks/speed/report.h"
+#include "core/base/error.h"
+#include "core/io/atomic_file.h"
 #include "raster_cpu/cpu_rasterizer.h"
+#ifdef RANGEZIP_WITH_GL
+#include "benchmarks/speed/native_gl.h"
+#endif
+
+namespace rangezip::benchmark {
 
 namespace {
 
-using namespace rangezip;
+using Json = nlohmann::ordered_json;
 
-enum class Order { random, scan, curve };
-constexpr const char* kOrderNames[]{"random", "scan", "curve"};
+constexpr std::size_t kMillion = 1'000'000;
+constexpr std::array kTrianglePixels{0.34, 1.4, 10.0, 400.0};
 
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
+// What has a target: points, triangles, sums.
 
-/// The best of several runs, for at least a second in all.
-double best_seconds(const std::function<void()>& work) {
-  constexpr int kLeastRuns = 3;
-  constexpr double kEnough = 1.0;
-  double best = 1e300, sum = 0.0;
-  for (int run = 0; run < kLeastRuns || sum < kEnough; ++run) {
-    const double begin = cpu_seconds();
-    work();
-    const double taken = cpu_seconds() - begin;
-    best = std::min(best, taken);
-    sum += taken;
-  }
-  return best;
-}
+void measure_points(Results& results) {
+  const Cloud random = make_cloud(10 * kMillion, Order::random);
+  const Cloud scan = make_cloud(10 * kMillion, Order::scan);
+  const Cloud curve = make_cloud(10 * kMillion, Order::curve);
+  // One group: ratios are taken between these rows.
+  std::vector<Case> cases = limits_of(bytes_of(random));
+  for (const std::string& instructions : cpu_instructions())
+    cases.push_back(points_case(random, {.instructions = instructions}));
+  cases.push_back(points_case(scan, {}));
+  cases.push_back(points_case(curve, {}));
+  cases.push_back(points_case(random, {.is_central = true}));
+  cases.push_back(points_case(random, {.size = 4096}));
+  results.measure(cases, {.rounds = 5, .seconds_per_case = 0.5});
 
-/// The bits of x and y in turn: the order along a Z-shaped curve.
-std::uint64_t curve_code(const Vec3f& p) {
-  const auto spread = [](float v) {
-    auto bits = static_cast<std::uint64_t>(v * 65536.0F);
-    bits = (bits | bits << 16U) & 0x0000'ffff'0000'ffffU;
-    bits = (bits | bits << 8U) & 0x00ff'00ff'00ff'00ffU;
-    bits = (bits | bits << 4U) & 0x0f0f'0f0f'0f0f'0f0fU;
-    bits = (bits | bits << 2U) & 0x3333'3333'3333'3333U;
-    return (bits | bits << 1U) & 0x5555'5555'5555'5555U;
-  };
-  return spread(p.x) | spread(p.y) << 1U;
-}
-
-/// In the unit cube.
-std::vector<Vec3f> make_points(std::size_t count, Order order) {
-  std::mt19937 engine(1);
-  const auto uniform = [&] { return static_cast<float>(engine() >> 8U) * 0x1p-24F; };
-  std::vector<Vec3f> points(count);
-  for (Vec3f& p : points) {
-    const float x = uniform(), y = uniform(), z = uniform();
-    p = {x, y, z};
-  }
-  if (order == Order::scan) {
-    constexpr float kRows = 2048.0F;
-    std::sort(points.begin(), points.end(), [](const Vec3f& p, const Vec3f& q) {
-      const int row_p = static_cast<int>(p.y * kRows), row_q = static_cast<int>(q.y * kRows);
-      return row_p != row_q ? row_p < row_q : p.x < q.x;
-    });
-  } else if (order == Order::curve) {
-    std::sort(points.begin(), points.end(),
-              [](const Vec3f& p, const Vec3f& q) { return curve_code(p) < curve_code(q); });
-  }
-  return points;
-}
-
-/// A height field over the unit square of triangles that cover about `pixels` each.
-struct Field {
-  std::vector<Vec3f> positions;
-  std::vector<Triangle> triangles;
-};
-
-Field make_field(double pixels, int size) {
-  const int n = std::max(1, static_cast<int>(size / std::sqrt(2.0 * pixels)));
-  std::mt19937 engine(2);
-  Field field;
-  for (int y = 0; y <= n; ++y) {
-    for (int x = 0; x <= n; ++x) {
-      const float z = static_cast<float>(engine() >> 8U) * 0x1p-24F;
-      field.positions.emplace_back(static_cast<float>(x) / static_cast<float>(n),
-                                   static_cast<float>(y) / static_cast<float>(n), z);
-    }
-  }
-  const auto row = static_cast<std::uint32_t>(n + 1);
-  for (std::uint32_t y = 0; y + 1 < row; ++y) {
-    for (std::uint32_t x = 0; x + 1 < row; ++x) {
-      const std::uint32_t a = y * row + x;
-      field.triangles.push_back({a, a + 1, a + row});
-      field.triangles.push_back({a + 1, a + row + 1, a + row});
-    }
-  }
-  return field;
-}
-
-/// Shows the unit cube in a square image, straight or in perspective.
-View make_view(int size, bool is_central) {
-  if (!is_central) {
-    return View({.lens = Orthographic{.height = 1.0}, .near_depth = -0.1, .far_depth = 1.2},
-                {size, size});
-  }
-  // The front of the cube at a distance of 1 fills the image.
-  return View(
-      {.lens = Perspective{.fov_y = 2.0 * std::atan(0.5)}, .near_depth = 0.9, .far_depth = 2.2},
-      {size, size});
-}
-
-Mat4 placement(bool is_central) {
-  Mat4 m{1.0};
-  m[3] = {-0.5, -0.5, is_central ? -2.0 : -1.0, 1.0};
-  return m;
-}
-
-class Runner {
- public:
-  explicit Runner(nlohmann::ordered_json& rows) : rows_(rows) {}
-
-  void points(const std::vector<Vec3f>& positions, Order order, const std::string& instructions,
-              int size, int point_size, bool is_central) {
-    CpuRasterizer rasterizer(instructions);
-    const View view = make_view(size, is_central);
-    const DrawItem item = DrawPoints{
-        .positions = positions, .world_from_item = placement(is_central), .point_size = point_size};
-    Framebuffer out;
-    const double seconds = best_seconds([&] { rasterizer.render(view, {&item, 1}, out); });
-    add({{"what", "points"},
-         {"instructions", instructions},
-         {"order", kOrderNames[static_cast<int>(order)]},
-         {"size", size},
-         {"point_size", point_size},
-         {"projection", is_central ? "perspective" : "parallel"},
-         {"count", positions.size()}},
-        static_cast<double>(positions.size()) / seconds);
-  }
-
-  void triangles(double pixels, const std::string& instructions, int size) {
-    const Field field = make_field(pixels, size);
-    CpuRasterizer rasterizer(instructions);
-    const View view = make_view(size, false);
-    const DrawItem item = DrawTriangles{.positions = field.positions,
-                                        .triangles = field.triangles,
-                                        .world_from_item = placement(false)};
-    Framebuffer out;
-    const double seconds = best_seconds([&] { rasterizer.render(view, {&item, 1}, out); });
-    add({{"what", "triangles"},
-         {"instructions", instructions},
-         {"pixels", pixels},
-         {"size", size},
-         {"count", field.triangles.size()}},
-        static_cast<double>(field.triangles.size()) / seconds);
-  }
-
-  void accumulate(const std::vector<Vec3f>& positions, Order order, const std::string& instructions,
-                  int size) {
-    CpuRasterizer rasterizer(instructions);
-    const View view = make_view(size, false);
-    const DrawItem item = DrawPoints{.positions = positions, .world_from_item = placement(false)};
-    const Extent extent{size, size};
-    const AccumulateWindow window{
-        .band = {.lower = Grid<std::int32_t>(extent, 0),
-                 .upper = Grid<std::int32_t>(extent, static_cast<std::int32_t>(kMaxDepth))},
-        .reference = Grid<std::int32_t>(extent, 1 << 23),
-        .shift = 4};
-    Grid<PixelMoments> out;
-    const double seconds = best_seconds([&] {
-      rasterizer.accumulate(view, {&item, 1}, window, out);
-    });
-    add({{"what", "accumulate"},
-         {"instructions", instructions},
-         {"order", kOrderNames[static_cast<int>(order)]},
-         {"size", size},
-         {"count", positions.size()}},
-        static_cast<double>(positions.size()) / seconds);
-  }
-
-  /// The limit: every byte of the points read once.
-  void reading(const std::vector<Vec3f>& positions) {
-    volatile std::uint64_t sink = 0;
-    const double seconds = best_seconds([&] {
-      const auto* const bytes = reinterpret_cast<const unsigned char*>(positions.data());
-      std::uint64_t sums[8]{};
-      const std::size_t words = positions.size() * sizeof(Vec3f) / sizeof(sums);
-      for (std::size_t i = 0; i < words; ++i) {
-        std::uint64_t values[8];
-        std::memcpy(values, bytes + i * sizeof(values), sizeof(values));
-        for (std::size_t k = 0; k < 8; ++k)
-          sums[k] += values[k];
-      }
-      for (const std::uint64_t sum : sums)
-        sink = sink + sum;
-    });
-    add({{"what", "reading 12 bytes a point"}, {"count", positions.size()}},
-        static_cast<double>(positions.size()) / seconds);
-  }
-
- private:
-  void add(nlohmann::ordered_json row, double rate) {
-    row["million_per_second"] = std::round(rate / 1e5) / 10.0;
-    std::string text;
-    for (const auto& [key, value] : row.items())
-      text += (value.is_string() ? value.get<std::string>() : key + " " + value.dump()) + "  ";
-    std::printf("%s\n", text.c_str());
-    std::fflush(stdout);
-    rows_.push_back(std::move(row));
-  }
-
-  nlohmann::ordered_json& rows_;
-};
-
-void run_quick(Runner& runner) {
-  constexpr std::size_t kPoints = 10'000'000;
-  const auto random = make_points(kPoints, Order::random);
-  const auto curve = make_points(kPoints, Order::curve);
-  runner.reading(random);
-  const std::vector<std::string> all = cpu_instructions();
-  const std::string& best = all.front();
-  for (const std::string& instructions : all)
-    runner.points(random, Order::random, instructions, 1024, 1, false);
-  runner.points(curve, Order::curve, best, 1024, 1, false);
-  runner.points(random, Order::random, best, 1024, 1, true);
-  runner.points(random, Order::random, best, 4096, 1, false);
+  cases = limits_of(bytes_of(random));
   for (const int point_size : {2, 3, 5})
-    runner.points(random, Order::random, best, 1024, point_size, false);
-  for (const double pixels : {0.34, 1.4, 10.0, 400.0})
-    runner.triangles(pixels, best, 1024);
-  runner.accumulate(curve, Order::curve, best, 1024);
-  runner.accumulate(random, Order::random, best, 1024);
-  runner.accumulate(curve, Order::curve, "scalar", 1024);
-  runner.accumulate(random, Order::random, "scalar", 1024);
+    cases.push_back(points_case(random, {.point_size = point_size}));
+  results.measure(cases, {.rounds = 3, .seconds_per_case = 0.5});
 }
 
-void run_full(Runner& runner) {
-  for (const Order order : {Order::random, Order::scan, Order::curve}) {
-    for (const std::size_t count : {std::size_t{100'000}, std::size_t{1'000'000},
-                                    std::size_t{10'000'000}, std::size_t{100'000'000}}) {
-      const auto points = make_points(count, order);
-      runner.reading(points);
-      for (const std::string& instructions : cpu_instructions()) {
-        for (const int size : {512, 1024, 2048, 4096}) {
-          for (const bool is_central : {false, true})
-            runner.points(points, order, instructions, size, 1, is_central);
-        }
-        for (const int point_size : {2, 3, 5})
-          runner.points(points, order, instructions, 1024, point_size, false);
-        if (count <= 10'000'000) runner.accumulate(points, order, instructions, 1024);
+void measure_triangles(Results& results) {
+  for (const double pixels : kTrianglePixels) {
+    const FieldSetup setup = make_field_setup(pixels, kSize);
+    std::vector<Case> cases = limits_of(bytes_of(setup.field));
+    cases.push_back(triangles_case(setup, widest_instructions()));
+    results.measure(cases, {.rounds = 5, .seconds_per_case = 0.5});
+  }
+}
+
+void measure_accumulate(Results& results) {
+  const Cloud random = make_cloud(10 * kMillion, Order::random);
+  const Cloud curve = make_cloud(10 * kMillion, Order::curve);
+  std::vector<Case> cases = limits_of(bytes_of(random));
+  cases.push_back(accumulate_case(curve, widest_instructions()));
+  cases.push_back(accumulate_case(random, widest_instructions()));
+  results.measure(cases, {.rounds = 3, .seconds_per_case = 0.5});
+}
+
+/// The same work by one thread and by two, in turn.
+void measure_thread_pair(Results& results, const Case& one) {
+  Case alone = one, pair = one;
+  alone.name = {{"what", "threads"}, {"scene", one.name["what"]}};
+  for (const char* key : {"pixels", "order", "size", "count"})
+    if (one.name.contains(key)) alone.name[key] = one.name[key];
+  pair.name = alone.name;
+  alone.name["threads"] = alone.threads = 1;
+  pair.name["threads"] = pair.threads = 2;
+  results.measure({alone, pair}, {.rounds = 20, .seconds_per_case = 0.0, .runs_per_turn = 1});
+}
+
+void measure_threads(Results& results, Json& notes) {
+  if (std::thread::hardware_concurrency() < 2) {
+    notes.push_back("threads: this machine has one core, so two threads are not measured");
+    return;
+  }
+  const Cloud random = make_cloud(10 * kMillion, Order::random);
+  const Cloud curve = make_cloud(10 * kMillion, Order::curve);
+  const FieldSetup setup = make_field_setup(kTrianglePixels.front(), kSize);
+  measure_thread_pair(results, points_case(random, {}));
+  measure_thread_pair(results, triangles_case(setup, widest_instructions()));
+  measure_thread_pair(results, accumulate_case(curve, widest_instructions()));
+}
+
+// Beside OSMesa.
+
+#ifdef RANGEZIP_WITH_GL
+
+/// The same item by OSMesa and by the CPU rasterizer, in turn.
+void measure_native_pair(Results& results, NativeGl& gl, const View& view, const DrawItem& item,
+                         const Json& scene) {
+  gl.load(view, item);
+  Case native{.name = scene, .items = static_cast<double>(primitive_count(item)), .work = [&] {
+                gl.draw();
+              }};
+  Case ours{
+      .name = scene, .items = native.items, .work = rendering(widest_instructions(), view, item)};
+  native.name["by"] = "OSMesa";
+  ours.name["by"] = "CpuRasterizer";
+  results.measure({native, ours}, {.rounds = 3, .seconds_per_case = 0.5});
+  if (gl.covered_pixels() == 0) throw BackendError("NativeGl: nothing was drawn");
+}
+
+void measure_native(Results& results, Json& notes) {
+  std::optional<NativeGl> gl;
+  try {
+    gl.emplace();
+  } catch (const BackendError& error) {  // OSMesa is looked for at run time
+    notes.push_back(std::string("native: not measured: ") + error.what());
+    return;
+  }
+  notes.push_back("native: OSMesa, " + gl->renderer() +
+                  ", LP_NUM_THREADS=0 (draws on the calling thread); clear, draw and glFinish, "
+                  "the buffers of vertices resident");
+  const Cloud cloud = make_cloud(kMillion, Order::random);
+  for (const int point_size : {1, 2, 3, 5}) {
+    measure_native_pair(results, *gl, make_view(kSize, false), draw(cloud, point_size, false),
+                        {{"what", "native"},
+                         {"scene", "points"},
+                         {"point_size", point_size},
+                         {"size", kSize},
+                         {"count", cloud.positions.size()}});
+  }
+  constexpr int kFieldSize = 512;  // as many triangles as points, about
+  for (const double pixels : kTrianglePixels) {
+    const Field field = make_field(pixels, kFieldSize);
+    measure_native_pair(results, *gl, make_view(kFieldSize, false), draw(field),
+                        {{"what", "native"},
+                         {"scene", "triangles"},
+                         {"pixels", pixels},
+                         {"size", kFieldSize},
+                         {"count", field.triangles.size()}});
+  }
+}
+
+#else
+
+void measure_native(Results&, Json& notes) {
+  notes.push_back("native: built without OpenGL (RANGEZIP_WITH_GL=OFF), so OSMesa is not measured");
+}
+
+#endif
+
+// The ladder of sizes.
+
+constexpr Effort kLadderEffort{.rounds = 2, .seconds_per_case = 0.3};
+constexpr std::array kOrders{Order::random, Order::scan, Order::curve};
+
+/// Buffers, instructions and sizes of points, where one measurement is not long.
+void climb_points(Results& results, const Cloud& cloud) {
+  for (const int size : {512, kSize, 2048, 4096}) {
+    std::vector<Case> cases = limits_of(bytes_of(cloud));
+    for (const bool is_central : {false, true})
+      cases.push_back(points_case(cloud, {.size = size, .is_central = is_central}));
+    results.measure(cases, kLadderEffort);
+  }
+  std::vector<Case> cases = limits_of(bytes_of(cloud));
+  for (const std::string& instructions : cpu_instructions())
+    cases.push_back(points_case(cloud, {.instructions = instructions}));
+  for (const int point_size : {2, 3, 5})
+    cases.push_back(points_case(cloud, {.point_size = point_size}));
+  results.measure(cases, kLadderEffort);
+}
+
+/// Points of one pixel by the widest instructions only: a run takes a second.
+void climb_large_cloud(Results& results, const Cloud& cloud) {
+  std::vector<Case> cases = limits_of(bytes_of(cloud));
+  for (const int size : {512, kSize, 2048, 4096})
+    cases.push_back(points_case(cloud, {.size = size}));
+  results.measure(cases, kLadderEffort);
+}
+
+void climb_points(Results& results) {
+  for (const Order order : kOrders) {
+    for (const std::size_t count : {kMillion / 10, kMillion, 10 * kMillion})
+      climb_points(results, make_cloud(count, order));
+    climb_large_cloud(results, make_cloud(100 * kMillion, order));
+  }
+}
+
+void climb_triangles(Results& results) {
+  constexpr double kHuge = 10'000.0;
+  std::vector<double> ladder(kTrianglePixels.begin(), kTrianglePixels.end());
+  ladder.push_back(kHuge);
+  for (const double pixels : ladder) {
+    for (const int size : {512, kSize, 2048, 4096}) {
+      const FieldSetup setup = make_field_setup(pixels, size);
+      std::vector<Case> cases = limits_of(bytes_of(setup.field));
+      if (size == kSize) {
+        for (const std::string& instructions : cpu_instructions())
+          cases.push_back(triangles_case(setup, instructions));
+      } else {
+        cases.push_back(triangles_case(setup, widest_instructions()));
       }
+      results.measure(cases, kLadderEffort);
     }
   }
-  for (const std::string& instructions : cpu_instructions()) {
-    for (const double pixels : {0.34, 1.4, 10.0, 400.0}) {
-      for (const int size : {1024, 4096})
-        runner.triangles(pixels, instructions, size);
+}
+
+void climb_accumulate(Results& results) {
+  for (const Order order : kOrders) {
+    for (const std::size_t count : {kMillion / 10, kMillion, 10 * kMillion}) {
+      const Cloud cloud = make_cloud(count, order);
+      std::vector<Case> cases = limits_of(bytes_of(cloud));
+      for (const std::string& instructions : cpu_instructions())
+        cases.push_back(accumulate_case(cloud, instructions));
+      results.measure(cases, kLadderEffort);
     }
+  }
+}
+
+// The program.
+
+constexpr std::array<const char*, 5> kParts{"points", "triangles", "accumulate", "threads",
+                                            "native"};
+
+struct Options {
+  bool is_full = false;
+  std::vector<std::string> only;
+  std::string json;
+  std::string revision = "unknown";
+
+  [[nodiscard]] bool wants(const std::string& part) const {
+    return only.empty() || std::find(only.begin(), only.end(), part) != only.end();
+  }
+};
+
+[[noreturn]] void refuse(const std::string& reason) {
+  throw InvalidArgument(reason +
+                        "\nusage: raster_benchmark [quick|full] [--only WHAT]... [--json FILE] "
+                        "[--revision TEXT]\nWHAT: points, triangles, accumulate, threads, native");
+}
+
+/// @throws InvalidArgument
+Options parse(const std::vector<std::string>& arguments) {
+  Options options;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& argument = arguments[i];
+    const auto value = [&]() -> const std::string& {
+      if (i + 1 == arguments.size()) refuse(argument + " needs a value");
+      return arguments[++i];
+    };
+    if (argument == "quick" || argument == "full") {
+      options.is_full = argument == "full";
+    } else if (argument == "--json") {
+      options.json = value();
+    } else if (argument == "--revision") {
+      options.revision = value();
+    } else if (argument == "--only") {
+      options.only.push_back(value());
+      if (std::find(kParts.begin(), kParts.end(), options.only.back()) == kParts.end())
+        refuse("--only does not know " + options.only.back());
+    } else {
+      refuse("unknown argument " + argument);
+    }
+  }
+  return options;
+}
+
+Json describe(const Options& options) {
+  Json report = describe_run("raster_benchmark", options.revision);
+  report["instructions"] = cpu_instructions();
+  report["extent"] = options.is_full ? "full" : "quick";
+  report["only"] = options.only;
+  report["load"] = {load_average()};
+  return report;
+}
+
+void run(const Options& options, Results& results, Json& notes) {
+  if (options.wants("points")) measure_points(results);
+  if (options.wants("triangles")) measure_triangles(results);
+  if (options.wants("accumulate")) measure_accumulate(results);
+  if (options.wants("threads")) measure_threads(results, notes);
+  if (options.wants("native")) measure_native(results, notes);
+  if (!options.is_full) return;
+  if (options.wants("points")) climb_points(results);
+  if (options.wants("triangles")) climb_triangles(results);
+  if (options.wants("accumulate")) climb_accumulate(results);
+}
+
+void run_program(const Options& options) {
+  std::optional<AtomicFile> file;  // a place that cannot be written shows before the long run
+  if (!options.json.empty()) file.emplace(options.json);
+  Json report = describe(options);
+  Json notes = Json::array();
+  Results results;
+  run(options, results, notes);
+  for (const Json& note : notes)
+    std::printf("%s\n", note.get<std::string>().c_str());
+  report["load"].push_back(load_average());
+  report["notes"] = notes;
+  report["rows"] = results.rows();
+  if (file) {
+    file->write(report.dump(1) + "\n");
+    file->commit();
   }
 }
 
 }  // namespace
 
+}  // namespace rangezip::benchmark
+
 int main(int argc, char** argv) {
-  std::string json;
-  bool is_full = false;
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    if (argument == "full") {
-      is_full = true;
-    } else if (argument == "--json" && i + 1 < argc) {
-      json = argv[++i];
-    } else if (argument != "quick") {
-      std::fprintf(stderr, "usage: raster_benchmark [quick|full] [--json FILE]\n");
-      return 1;
-    }
+  using namespace rangezip;
+  try {
+    benchmark::run_program(benchmark::parse({argv + 1, argv + argc}));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "raster_benchmark: %s\n", error.what());
+    return 1;
   }
-  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  Runner runner(rows);
-  run_with_threads(1, [&] { is_full ? run_full(runner) : run_quick(runner); });
-  if (!json.empty()) std::ofstream(json) << rows.dump(1) << '\n';
   return 0;
 }

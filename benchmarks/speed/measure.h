@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <vector>
+
+namespace rangezip::benchmark {
+
+/// One thing to measure.
+struct Case {
+  nlohmann::ordered_json name;  ///< what tells its row from others: {"what": "points", ...}
+  double items = 0.0;           ///< what one run of `work` deals with
+  std::function<void()> work;
+  int threads = 1;
+  double fragments = 0.0;  ///< pixels that the triangles cover; 0: not counted
+};
+
+/// How long a group is measured: until both the rounds and the time are reached.
+struct Effort {
+  int rounds = 3;
+  double seconds_per_case = 1.0;
+  int runs_per_turn = 2;  ///< from the second on a case finds the caches as it left them
+};
+
+using Bytes = std::span<const std::byte>;
+[[nodiscard]] std::size_t size_of(const std::vector<Bytes>& input);
+
+/// What no program beats that needs these bytes: reading each once; and copying them.
+[[nodiscard]] std::vector<Case> limits_of(const std::vector<Bytes>& input);
+
+/// The rows measured so far.
+class Results {
+ public:
+  /// Runs the cases in turn, so that what else the machine does hits all of them, and keeps the
+  /// best time of each case. A case of the same name as an earlier one shares its row.
+  void measure(const std::vector<Case>& cases, const Effort& effort);
+
+  /// The rows; those whose name holds "bytes" with their share of the limit of reading that many.
+  [[nodiscard]] nlohmann::ordered_json rows() const;
+
+ private:
+  struct Row {
+    nlohmann::ordered_json name;
+    double items = 0.0;
+    double fragments = 0.0;
+    double cpu_seconds = 0.0;
+    double wall_seconds = 0.0;
+    int runs = 0;
+    double load_before = 0.0;  ///< load average of the machine
+    double load_after = 0.0;
+  };
+
+  void add(const Row& row);
+  [[nodiscard]] static nlohmann::ordered_json json_of(const Row& row);
+  [[nodiscard]] const Row* find(const nlohmann::ordered_json& name) const;
+
+  std::vector<Row> rows_;
+};
+
+}  // namespace rangezip::benchmark
