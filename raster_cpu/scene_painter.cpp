@@ -1,6 +1,7 @@
 #include "raster_cpu/scene_painter.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/base/parallel.h"
 #include "raster_cpu/point_raster.h"
@@ -101,12 +102,10 @@ DrawReport ScenePainter::draw(std::span<const DrawItem> items, Framebuffer& out)
       draw_points(std::get<DrawPoints>(*step.item), step.rows);
     }
   }
-  const std::span<const PixelKey> drawn = merge_layers();
   if (largest > 0) {
-    memory_.binned.draw(drawn, out);
+    memory_.binned.draw(merge_layers(), out);
   } else {
-    set_extent(out, view_.extent());
-    unpack_keys(drawn, 0, out);
+    unpack_layers(out);
   }
   return report_;
 }
@@ -134,6 +133,24 @@ std::span<const PixelKey> ScenePainter::merge_layers() {
   });
   layers_ = 1;
   return std::span(layers[0]).first(view_.extent().count());
+}
+
+/// merge_layers() and unpack_keys() in one, without writing the layers back.
+void ScenePainter::unpack_layers(Framebuffer& out) {
+  constexpr std::size_t kGrain = std::size_t{1} << 16;
+  constexpr std::size_t kBlock = 512;  // stays in the first-level cache
+  set_extent(out, view_.extent());
+  parallel_for(view_.extent().count(), kGrain, [&](std::size_t begin, std::size_t end) {
+    std::array<PixelKey, kBlock> merged;
+    for (std::size_t at = begin; at < end; at += kBlock) {
+      const std::size_t count = std::min(kBlock, end - at);
+      std::copy_n(&memory_.layers[0][at], count, merged.begin());
+      for (std::size_t layer = 1; layer < layers_; ++layer)
+        merge_keys(std::span(merged).first(count),
+                   std::span(memory_.layers[layer]).subspan(at, count));
+      unpack_keys(std::span(merged).first(count), at, out);
+    }
+  });
 }
 
 /// Draws the k-th part of `count` primitives into the k-th layer. @return what was dropped

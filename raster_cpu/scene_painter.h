@@ -35,6 +35,7 @@ class ScenePainter {
   [[nodiscard]] std::vector<Step> plan(std::span<const DrawItem> items) const;
   void clear_layers(std::size_t count);
   [[nodiscard]] std::span<const PixelKey> merge_layers();
+  void unpack_layers(Framebuffer& out);
   void draw_points(const DrawPoints& points, const RowTransform& rows);
   void draw_triangles(const DrawTriangles& item, const RowTransform& rows);
   void bin_points(const DrawPoints& points, const RowTransform& rows);
