@@ -132,7 +132,8 @@ RasterScene central(Random& random, Extent extent, int primitives) {
   camera.far_depth = camera.near_depth + random.between(1.0, 4.0);
   SceneBuilder builder(View(camera, extent), Mat4{1.0});
   add_voting_points(builder, random, in_cube(random, primitives / 4, 2.0), 1);
-  add_voting_points(builder, random, in_cube(random, primitives / 4, 2.0), whole(random, 2, 5));
+  const int size = whole(random, 2, 5);
+  add_voting_points(builder, random, in_cube(random, primitives / 4, 2.0), size);
   const int triangles = primitives / 2;
   std::vector<Vec3f> corners;
   corners.reserve(3 * static_cast<std::size_t>(triangles));

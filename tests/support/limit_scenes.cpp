@@ -72,8 +72,10 @@ double random_w(Random& random, double unit) {
       return 0.0;
     case 1:
       return -unit * random.between(0.0, 3.0);
-    case 2:
-      return std::ldexp(random.between(0.5, 2.0), whole(random, 0, 1) == 0 ? -64 : 64);
+    case 2: {
+      const int exponent = whole(random, 0, 1) == 0 ? -64 : 64;
+      return std::ldexp(random.between(0.5, 2.0), exponent);
+    }
     case 3:
       return std::ldexp(1.0, whole(random, 0, 1) == 0 ? -64 : 64);
     default:
@@ -136,7 +138,8 @@ RasterScene image_shapes(Random& random) {
     builder.add_points(std::move(positions), size, std::move(votes));
   }
   const int triangles = whole(random, 0, 40);
-  builder.add_soup(points_around(random, extent, 3 * triangles, 3), random_facing(random));
+  auto corners = points_around(random, extent, 3 * triangles, 3);
+  builder.add_soup(std::move(corners), random_facing(random));
   return builder.take();
 }
 
