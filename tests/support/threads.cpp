@@ -3,6 +3,7 @@
 #ifdef RANGEZIP_WITH_TBB
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
+#include <map>
 #else
 #include "core/base/parallel.h"
 #endif
@@ -12,10 +13,13 @@ namespace rangezip {
 #ifdef RANGEZIP_WITH_TBB
 
 void run_with_exactly(int threads, const std::function<void()>& work) {
-  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads);
-  arena.execute(work);
+  // oneTBB takes no more threads than cores without the first. Both are kept: to make them anew
+  // for each of many short drawings wakes threads, and costs five times the drawings.
+  constexpr std::size_t kMostThreads = 64;
+  static const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
+                                           kMostThreads);
+  static std::map<int, tbb::task_arena> arenas;
+  arenas.try_emplace(threads, threads).first->second.execute(work);
 }
 
 #else
