@@ -45,6 +45,7 @@ struct Options {
 struct Count {
   std::uint64_t scenes = 0;
   std::uint64_t pixels = 0;
+  std::uint64_t covered = 0;  ///< pixels that hold something
   std::uint64_t primitives = 0;
 };
 
@@ -87,9 +88,11 @@ std::optional<fuzz::Difference> try_out(Rasterizer& rasterizer, int threads,
 void compare(const Candidate& candidate, int threads, std::uint64_t scene, const fuzz::Case& drawn,
              fuzz::Drawings& found, Result& result) {
   const auto difference = try_out(*candidate.rasterizer, threads, drawn, found);
-  result.families[drawn.family].pixels += drawn.pixels();
+  for (Count* count : {&result.families[drawn.family], &result.total}) {
+    count->pixels += drawn.pixels();
+    count->covered += drawn.covered();
+  }
   result.pixels[candidate.backend.name][threads] += drawn.pixels();
-  result.total.pixels += drawn.pixels();
   if (!difference) return;
   const auto fresh = candidate.backend.make();
   result.failure = Failure{scene,   drawn.family, candidate.backend.name,
@@ -213,7 +216,10 @@ std::string today() {
 }
 
 ordered_json to_json(const Count& count) {
-  return {{"scenes", count.scenes}, {"pixels", count.pixels}, {"primitives", count.primitives}};
+  return {{"scenes", count.scenes},
+          {"pixels", count.pixels},
+          {"covered_pixels", count.covered},
+          {"primitives", count.primitives}};
 }
 
 ordered_json to_json(const Options& options, const Result& result, double seconds) {

@@ -107,6 +107,26 @@ std::vector<Vec3f> seen_positions(Random& random, int count, double unit, int he
   return positions;
 }
 
+/// In 1/256 px: on a pixel's centre or border, or next to it, or half a unit before one of these.
+double on_half(Random& random, int size) {
+  const int unit = 128 * whole(random, -2, 2 * size + 2) + whole(random, -1, 1);
+  return unit - 0.5 * whole(random, 0, 1);
+}
+
+/// Under a view of 90 degrees, whose rows are multiples of 128: nothing is rounded before R4, if
+/// the height is a power of two.
+std::vector<Vec3f> on_halves(Random& random, Extent extent, int count) {
+  std::vector<Vec3f> positions;
+  for (int i = 0; i < count; ++i) {
+    const double w = one_of(random, std::array{0.75, 1.0, 1.25, 2.0, 3.0, 5.0});
+    const double scale = w / (128.0 * extent.height);
+    const double x = on_half(random, extent.width) - 128.0 * extent.width;
+    const double y = on_half(random, extent.height) - 128.0 * extent.height;
+    positions.push_back(Vec3f{x * scale, y * scale, -w});
+  }
+  return positions;
+}
+
 /// Below the least normal float, of either sign.
 float denormal(Random& random) {
   const float size = std::ldexp(static_cast<float>(whole(random, 0, (1 << 23) - 1)), -149);
@@ -175,6 +195,23 @@ RasterScene near_the_eye(Random& random) {
     builder.add_points(std::move(positions), size, std::move(votes));
   }
   auto corners = seen_positions(random, 3 * 40, unit, extent.height);
+  builder.add_soup(std::move(corners), random_facing(random));
+  return builder.take();
+}
+
+RasterScene central_lattice(Random& random) {
+  const int width = whole(random, 1, 40);
+  const Extent extent{width, 1 << whole(random, 0, 5)};
+  const View view(
+      {.lens = Perspective{.fov_y = 2.0 * std::atan(1.0)}, .near_depth = 0.5, .far_depth = 8.0},
+      extent);
+  SceneBuilder builder(view, Mat4{1.0});
+  for (const int size : {1, whole(random, 1, 5)}) {
+    auto positions = on_halves(random, extent, 120);
+    auto votes = random_votes(random, positions.size());
+    builder.add_points(std::move(positions), size, std::move(votes));
+  }
+  auto corners = on_halves(random, extent, 3 * 30);
   builder.add_soup(std::move(corners), random_facing(random));
   return builder.take();
 }

@@ -9,6 +9,7 @@ namespace rangezip::scenes {
 [[nodiscard]] RasterScene image_shapes(Random& random);
 [[nodiscard]] RasterScene guard_range(Random& random);
 [[nodiscard]] RasterScene near_the_eye(Random& random);
+[[nodiscard]] RasterScene central_lattice(Random& random);
 [[nodiscard]] RasterScene denormals(Random& random);
 
 }  // namespace rangezip::scenes

@@ -1,5 +1,6 @@
 #include "tests/support/raster_fuzz.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <tuple>
@@ -133,6 +134,17 @@ std::optional<Difference> compare_reports(const Drawings& expected, const Drawin
 
 std::size_t Case::pixels() const {
   return scene.view.extent().count() * (window ? 3 : 2);
+}
+
+std::size_t Case::covered() const {
+  const auto is_drawn = [](PrimitiveId id) { return id != kNoPrimitive; };
+  const auto has_sums = [](const PixelMoments& m) { return m.w != 0; };
+  const auto image = expected.image.id.pixels();
+  const auto banded = expected.banded.id.pixels();
+  const auto sums = expected.sums.pixels();
+  return static_cast<std::size_t>(std::count_if(image.begin(), image.end(), is_drawn) +
+                                  std::count_if(banded.begin(), banded.end(), is_drawn) +
+                                  std::count_if(sums.begin(), sums.end(), has_sums));
 }
 
 std::size_t Case::primitives() const {

@@ -30,6 +30,8 @@ struct Case {
 
   /// Pixels that one rasterizer's drawings are compared in.
   [[nodiscard]] std::size_t pixels() const;
+  /// Those of them that hold something.
+  [[nodiscard]] std::size_t covered() const;
   [[nodiscard]] std::size_t primitives() const;
 };
 

@@ -81,6 +81,7 @@ Wide round_half_even(float value) {
 Wide round_half_up(float a, float w, const Mistakes& mistakes) {
   if (mistakes.quotient_in_float) return static_cast<Wide>(std::floor(a / w + 0.5F));
   const Ratio r = ratio_of(a, w);
+  if (mistakes.halves_go_down) return -floor_of(r.denominator - 2 * r.numerator, 2 * r.denominator);
   return floor_of(2 * r.numerator + r.denominator, 2 * r.denominator);
 }
 

@@ -264,9 +264,11 @@ RasterScene scene_of(SceneFamily family, Random& random) {
     case SceneFamily::near_the_eye:
       return near_the_eye(random);
     case SceneFamily::denormals:
+      return denormals(random);
+    case SceneFamily::central_lattice:
       break;
   }
-  return denormals(random);
+  return central_lattice(random);
 }
 
 /// The first twelve families keep the seeds under which their hashes were put on file.
@@ -284,7 +286,7 @@ std::string name_of(SceneFamily family) {
       "tiny_triangles", "slivers",          "wide_triangles",    "plane_crossing",
       "duplicates",     "shared_edges",     "central_triangles", "mixed_and_clipped",
       "point_sizes",    "image_shapes",     "guard_range",       "near_the_eye",
-      "denormals"};
+      "denormals",      "central_lattice"};
   return names[static_cast<std::size_t>(family)];
 }
 

@@ -38,8 +38,9 @@ enum class SceneFamily : std::uint8_t {
   guard_range,        ///< at its ends, just inside and just outside; +-7000 px
   near_the_eye,       ///< a perspective view at the ends of R4's range of w, and behind the eye
   denormals,          ///< numbers that vanish where the processor flushes them to zero
+  central_lattice,    ///< a perspective view with quotients that are exact halves (R4)
 };
-inline constexpr int kSceneFamilies = 17;
+inline constexpr int kSceneFamilies = 18;
 
 [[nodiscard]] std::string name_of(SceneFamily family);
 

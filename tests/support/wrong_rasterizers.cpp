@@ -169,6 +169,7 @@ std::vector<WrongRasterizer> wrong_rasterizers(
   add_mistake("other_edges_own_ties", {.other_edges_own_ties = true});
   add_mistake("depth_rounds_to_nearest", {.depth_rounds_to_nearest = true});
   add_mistake("quotient_in_float", {.quotient_in_float = true});
+  add_mistake("halves_go_down", {.halves_go_down = true});
   add_mistake("ties_go_to_higher_id", {.ties_go_to_higher_id = true});
   add_mistake("points_lean_left", {.points_lean_left = true});
   add_mistake("denormals_are_zero", {.denormals_are_zero = true});

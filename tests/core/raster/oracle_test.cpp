@@ -102,6 +102,7 @@ TEST_CASE("the comparison with the oracle notices each wrong rule") {
   CHECK(is_noticed({.other_edges_own_ties = true}));
   CHECK(is_noticed({.depth_rounds_to_nearest = true}));
   CHECK(is_noticed({.quotient_in_float = true}));
+  CHECK(is_noticed({.halves_go_down = true}));
   CHECK(is_noticed({.ties_go_to_higher_id = true}));
   CHECK(is_noticed({.points_lean_left = true}));
   CHECK(is_noticed({.denormals_are_zero = true}));
