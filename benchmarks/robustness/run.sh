@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the preset `release`, runs raster_fuzz and stores its result under benchmarks/results, named
-# by the machine as scripts/bench.sh does.
+# Builds the preset `release`, runs raster_fuzz and stores its result under benchmarks/results,
+# named by the machine as scripts/bench.sh does.
 # Usage: benchmarks/robustness/run.sh [OPTIONS OF raster_fuzz]     such as --pixels 1e9 --seed 1
 set -euo pipefail
 cd "$(dirname "$0")/../.."
