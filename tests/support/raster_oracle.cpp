@@ -59,8 +59,13 @@ float times(float a, float b) {
 float plus(float a, float b) {
   return static_cast<float>(static_cast<double>(a) + static_cast<double>(b));
 }
-float row_value(const Row& row, const Vec3f& p) {
-  return plus(plus(plus(times(row[0], p.x), times(row[1], p.y)), times(row[2], p.z)), row[3]);
+float row_value(const Row& row, const Vec3f& p, const Mistakes& mistakes) {
+  const auto kept = [&](float v) {
+    return mistakes.denormals_are_zero && std::fpclassify(v) == FP_SUBNORMAL ? 0.0F : v;
+  };
+  return plus(
+      plus(plus(times(row[0], kept(p.x)), times(row[1], kept(p.y))), times(row[2], kept(p.z))),
+      row[3]);
 }
 
 /// R3: nearest integer, ties to even.
@@ -76,6 +81,7 @@ Wide round_half_even(float value) {
 Wide round_half_up(float a, float w, const Mistakes& mistakes) {
   if (mistakes.quotient_in_float) return static_cast<Wide>(std::floor(a / w + 0.5F));
   const Ratio r = ratio_of(a, w);
+  if (mistakes.halves_go_down) return -floor_of(r.denominator - 2 * r.numerator, 2 * r.denominator);
   return floor_of(2 * r.numerator + r.denominator, 2 * r.denominator);
 }
 
@@ -86,10 +92,10 @@ struct Corner {
 };
 
 std::optional<Corner> snap(const RowTransform& rows, const Vec3f& p, const Mistakes& mistakes) {
-  const float x = row_value(rows.x, p);
-  const float y = row_value(rows.y, p);
-  const float z = row_value(rows.z, p);
-  const float w = rows.is_central ? row_value(rows.w, p) : 1.0F;
+  const float x = row_value(rows.x, p, mistakes);
+  const float y = row_value(rows.y, p, mistakes);
+  const float z = row_value(rows.z, p, mistakes);
+  const float w = rows.is_central ? row_value(rows.w, p, mistakes) : 1.0F;
   if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z) || !std::isfinite(w)) return {};
   if (w < 0x1p-64F || w > 0x1p64F) return {};
   // In double the products with a power of two are exact.
@@ -103,11 +109,16 @@ std::optional<Corner> snap(const RowTransform& rows, const Vec3f& p, const Mista
                 round_half_up(z, w, mistakes)};
 }
 
-bool is_clipped(const RowTransform& rows, const Vec3f& p) {
+bool is_clipped(const RowTransform& rows, const Vec3f& p, const Mistakes& mistakes) {
   for (const Row& plane : rows.clip) {
-    if (!(row_value(plane, p) >= 0.0F)) return true;
+    if (!(row_value(plane, p, mistakes) >= 0.0F)) return true;
   }
   return false;
+}
+
+bool is_in_band(const DepthBand& band, Pixel pixel, Wide depth, const Mistakes& mistakes) {
+  if (mistakes.band_is_open) return band.lower[pixel] < depth && depth < band.upper[pixel];
+  return band.lower[pixel] <= depth && depth <= band.upper[pixel];
 }
 
 /// An image under construction.
@@ -119,7 +130,7 @@ struct Canvas {
 
   void put(Pixel pixel, Wide depth, PrimitiveId id) {
     if (depth < 0 || depth >= (Wide{1} << 24)) return;
-    if (band != nullptr && (depth < band->lower[pixel] || depth > band->upper[pixel])) return;
+    if (band != nullptr && !is_in_band(*band, pixel, depth, mistakes)) return;
     const auto d = static_cast<std::uint32_t>(depth);
     const std::uint32_t old = image.depth[pixel];
     const bool lower_id =
@@ -145,7 +156,7 @@ void draw(Canvas& canvas, const DrawPoints& item) {
   const Wide lean = canvas.mistakes.points_lean_left ? 1 : 0;
   for (std::size_t i = 0; i < item.positions.size(); ++i) {
     const auto p = snap(rows, item.positions[i], canvas.mistakes);
-    if (!p || is_clipped(rows, item.positions[i])) continue;
+    if (!p || is_clipped(rows, item.positions[i], canvas.mistakes)) continue;
     const Wide left = floor_of(p->x - 128 * (size - 1) - lean, 256);
     const Wide below = floor_of(p->y - 128 * (size - 1) - lean, 256);
     const PrimitiveId id = item.first_id + static_cast<PrimitiveId>(i);
@@ -211,7 +222,7 @@ void draw(Canvas& canvas, const DrawTriangles& item) {
     for (std::size_t k = 0; k < 3; ++k) {
       positions[k] = item.positions[item.triangles[i][k]];
       const auto p = snap(rows, positions[k], canvas.mistakes);
-      is_whole = is_whole && p && !is_clipped(rows, positions[k]);
+      is_whole = is_whole && p && !is_clipped(rows, positions[k], canvas.mistakes);
       if (p) corners[k] = *p;
     }
     if (is_whole) {
@@ -224,6 +235,12 @@ void draw(Canvas& canvas, const DrawTriangles& item) {
       draw_triangle(canvas, {corner_of(a), corner_of(b), corner_of(c)}, id, item.facing);
     }
   }
+}
+
+/// R13's shift rounds down.
+Wide shifted(Wide offset, int shift, const Mistakes& mistakes) {
+  const Wide unit = Wide{1} << shift;
+  return mistakes.shift_rounds_to_zero ? offset / unit : floor_of(offset, unit);
 }
 
 void add(PixelMoments& sums, std::int64_t dx, std::int64_t dy, std::int64_t z, std::int64_t vote) {
@@ -252,15 +269,15 @@ Framebuffer render(const View& view, std::span<const DrawItem> items, const Dept
 }
 
 Grid<PixelMoments> accumulate(const View& view, std::span<const DrawItem> items,
-                              const AccumulateWindow& window) {
+                              const AccumulateWindow& window, const Mistakes& mistakes) {
   Grid<PixelMoments> sums(view.extent());
   for (const DrawItem& item : items) {
     const auto* points = std::get_if<DrawPoints>(&item);
     if (points == nullptr) continue;
     const RowTransform rows = make_row_transform(view, points->world_from_item);
     for (std::size_t i = 0; i < points->positions.size(); ++i) {
-      const auto p = snap(rows, points->positions[i], {});
-      if (!p || is_clipped(rows, points->positions[i])) continue;
+      const auto p = snap(rows, points->positions[i], mistakes);
+      if (!p || is_clipped(rows, points->positions[i], mistakes)) continue;
       if (p->z < 0 || p->z >= (Wide{1} << 24)) continue;
       for (int y = 0; y < view.extent().height; ++y) {
         for (int x = 0; x < view.extent().width; ++x) {
@@ -268,10 +285,10 @@ Grid<PixelMoments> accumulate(const View& view, std::span<const DrawItem> items,
           const auto dy = static_cast<std::int64_t>(p->y - (256 * y + 128));
           const Pixel pixel{x, y};
           if (std::abs(dx) >= 256 || std::abs(dy) >= 256) continue;
-          if (p->z < window.band.lower[pixel] || p->z > window.band.upper[pixel]) continue;
-          const auto z = static_cast<std::int64_t>(
-              floor_of(p->z - window.reference[pixel], Wide{1} << window.shift));
-          add(sums[pixel], dx, dy, z, points->votes.empty() ? 0 : points->votes[i]);
+          if (!is_in_band(window.band, pixel, p->z, mistakes)) continue;
+          const Wide z = shifted(p->z - window.reference[pixel], window.shift, mistakes);
+          add(sums[pixel], dx, dy, static_cast<std::int64_t>(z),
+              points->votes.empty() ? 0 : points->votes[i]);
         }
       }
     }

@@ -18,14 +18,19 @@ struct Mistakes {
   bool other_edges_own_ties = false;     ///< right and upper instead of left and lower (R6)
   bool depth_rounds_to_nearest = false;  ///< instead of down (R7)
   bool quotient_in_float = false;        ///< a rounded quotient instead of the exact one (R4)
+  bool halves_go_down = false;           ///< instead of up (R4)
   bool ties_go_to_higher_id = false;     ///< (R9)
   bool points_lean_left = false;         ///< a centre on a border goes to the pixel before it (R5)
+  bool denormals_are_zero = false;       ///< as where the processor flushes them (R2)
+  bool band_is_open = false;             ///< its ends are left out (R12)
+  bool shift_rounds_to_zero = false;     ///< instead of down (R13)
 };
 
 [[nodiscard]] Framebuffer render(const View& view, std::span<const DrawItem> items,
                                  const DepthBand* band = nullptr, const Mistakes& mistakes = {});
 
 [[nodiscard]] Grid<PixelMoments> accumulate(const View& view, std::span<const DrawItem> items,
-                                            const AccumulateWindow& window);
+                                            const AccumulateWindow& window,
+                                            const Mistakes& mistakes = {});
 
 }  // namespace rangezip::oracle

@@ -33,8 +33,14 @@ enum class SceneFamily : std::uint8_t {
   shared_edges,       ///< a jittered grid of triangles
   central_triangles,  ///< a perspective view
   mixed_and_clipped,  ///< points and triangles under clip planes
+  point_sizes,        ///< every small size and 31 and 255, also with centres off screen
+  image_shapes,       ///< single pixels, single rows and columns, odd widths
+  guard_range,        ///< at its ends, just inside and just outside; +-7000 px
+  near_the_eye,       ///< a perspective view at the ends of R4's range of w, and behind the eye
+  denormals,          ///< numbers that vanish where the processor flushes them to zero
+  central_lattice,    ///< a perspective view with quotients that are exact halves (R4)
 };
-inline constexpr int kSceneFamilies = 12;
+inline constexpr int kSceneFamilies = 18;
 
 [[nodiscard]] std::string name_of(SceneFamily family);
 

@@ -5,8 +5,10 @@
 #include <sstream>
 
 #include "tests/support/backends.h"
+#include "tests/support/large_scenes.h"
 #include "tests/support/lattice.h"
 #include "tests/support/raster_scenes.h"
+#include "tests/support/threads.h"
 
 namespace rangezip {
 namespace {
@@ -45,24 +47,31 @@ void add_sums(Hash& hash, const Grid<PixelMoments>& sums) {
   }
 }
 
+using Hashes = std::map<std::string, std::string>;
+
+void add_drawings(Rasterizer& rasterizer, const RasterScene& scene, std::uint64_t seed, Hash& drawn,
+                  Hash& summed) {
+  const Framebuffer image = rasterizer.render(scene.view, scene.items);
+  add_image(drawn, image);
+  Framebuffer banded;
+  rasterizer.render_in_band(scene.view, scene.items, random_band(image, seed), banded);
+  add_image(drawn, banded);
+  Grid<PixelMoments> sums;
+  rasterizer.accumulate(scene.view, scene.items,
+                        lattice::whole_window(scene.view.extent(), 1 << 22, 4), sums);
+  add_sums(summed, sums);
+}
+
 /// One hash per family and operation, over ten scenes.
-std::map<std::string, std::string> hashes_of(Rasterizer& rasterizer) {
-  std::map<std::string, std::string> hashes;
+Hashes hashes_of_families(Rasterizer& rasterizer) {
+  Hashes hashes;
   for (int index = 0; index < kSceneFamilies; ++index) {
     const auto family = static_cast<SceneFamily>(index);
     Hash drawn;
     Hash summed;
     for (std::uint64_t seed = 1001; seed <= 1010; ++seed) {
       const RasterScene scene = make_raster_scene(family, seed);
-      const Framebuffer image = rasterizer.render(scene.view, scene.items);
-      add_image(drawn, image);
-      Framebuffer banded;
-      rasterizer.render_in_band(scene.view, scene.items, random_band(image, seed), banded);
-      add_image(drawn, banded);
-      Grid<PixelMoments> sums;
-      rasterizer.accumulate(scene.view, scene.items,
-                            lattice::whole_window(scene.view.extent(), 1 << 22, 4), sums);
-      add_sums(summed, sums);
+      add_drawings(rasterizer, scene, seed, drawn, summed);
     }
     hashes[name_of(family) + ".drawn"] = drawn.text();
     hashes[name_of(family) + ".summed"] = summed.text();
@@ -70,19 +79,41 @@ std::map<std::string, std::string> hashes_of(Rasterizer& rasterizer) {
   return hashes;
 }
 
-TEST_CASE("every backend, compiler and thread count gives the bits on file") {
-  std::map<std::string, std::string> expected;
+/// One hash per kind of large scene and operation.
+Hashes hashes_of_large_scenes(Rasterizer& rasterizer) {
+  Hashes hashes;
+  for (int index = 0; index < kLargeScenes; ++index) {
+    const auto kind = static_cast<LargeScene>(index);
+    const RasterScene scene = make_large_scene(kind, {211, 157}, 150'000, 1);
+    Hash drawn;
+    Hash summed;
+    add_drawings(rasterizer, scene, 1, drawn, summed);
+    hashes[name_of(kind) + ".drawn"] = drawn.text();
+    hashes[name_of(kind) + ".summed"] = summed.text();
+  }
+  return hashes;
+}
+
+TEST_CASE("every backend, compiler and thread count gives the bits on file", "[bits]") {
+  Hashes expected;
   std::ifstream file(RANGEZIP_RASTER_BITS);
   for (std::string name, hash; file >> name >> hash;)
     expected[name] = hash;
+  int threads = 1;  // the scalar reference comes first
   for (const Backend& backend : all_backends()) {
-    CAPTURE(backend.name);
-    const auto hashes = hashes_of(*backend.make());
+    CAPTURE(backend.name, threads);
+    const auto rasterizer = backend.make();
+    Hashes hashes;
+    run_with_exactly(threads, [&] {
+      hashes = hashes_of_families(*rasterizer);
+      hashes.merge(hashes_of_large_scenes(*rasterizer));
+    });
     std::ostringstream found;
     for (const auto& [name, hash] : hashes)
       found << name << " " << hash << "\n";
     INFO("found, to be put on file after a wanted change of the rules:\n" << found.str());
     CHECK(hashes == expected);
+    threads = threads == 1 ? 8 : threads - 1;
   }
 }
 

@@ -1,13 +1,11 @@
-// Whole images: bands of depth, images drawn in parts, threads.
+// Whole images: bands of depth, images drawn in parts.
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "core/base/error.h"
-#include "core/base/parallel.h"
 #include "tests/core/raster/drawing.h"
 #include "tests/support/raster_scenes.h"
-#include "tests/support/shapes.h"
 
 namespace rangezip {
 namespace {
@@ -87,64 +85,6 @@ TEST_CASE("composite refuses framebuffers of different extents") {
   ragged.id.reset({4, 2});
   CHECK_THROWS_AS(composite(image, ragged), InvalidArgument);
   CHECK_THROWS_AS(composite(ragged, image), InvalidArgument);
-}
-
-/// A cloud and a mesh large enough to be drawn in parts by several threads.
-struct LargeScene {
-  std::vector<Vec3f> points;
-  std::vector<std::int8_t> votes;
-  std::vector<Vec3f> corners;
-  std::vector<Triangle> faces;
-  std::vector<DrawItem> items;
-};
-
-void fill_large_scene(LargeScene& scene, Extent extent) {
-  shapes::Random random(5);
-  for (int i = 0; i < 300'000; ++i) {
-    scene.points.emplace_back(random.between(0, px(extent.width)),
-                              random.between(0, px(extent.height)), random.between(0, 5e6));
-    scene.votes.push_back(static_cast<std::int8_t>(i % 255 - 127));
-  }
-  for (std::uint32_t i = 0; i < 100'000; ++i) {
-    const double x = random.between(0, px(extent.width));
-    const double y = random.between(0, px(extent.height));
-    for (int k = 0; k < 3; ++k) {
-      scene.corners.emplace_back(x + random.between(-800, 800), y + random.between(-800, 800),
-                                 random.between(0, 5e6));
-    }
-    scene.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
-  }
-  DrawPoints points = lattice::points(extent, scene.points, 0, 2);
-  points.votes = scene.votes;
-  scene.items = {points, lattice::triangles(extent, scene.corners, scene.faces, 300'000)};
-}
-
-TEST_CASE("the number of threads does not show") {
-  const Extent extent{200, 150};
-  LargeScene scene;
-  fill_large_scene(scene, extent);
-  const View view = lattice::view(extent);
-  const AccumulateWindow window = lattice::whole_window(extent, 2'500'000, 4);
-  for_each_backend([&](Rasterizer& rasterizer) {
-    Framebuffer image_of_one;
-    Grid<PixelMoments> sums_of_one;
-    for (const int threads : {1, 2, 3, 7}) {
-      CAPTURE(threads);
-      Framebuffer image;
-      Grid<PixelMoments> sums;
-      run_with_threads(threads, [&] {
-        rasterizer.render(view, scene.items, image);
-        rasterizer.accumulate(view, scene.items, window, sums);
-      });
-      if (threads == 1) {
-        image_of_one = image;
-        sums_of_one = sums;
-        continue;
-      }
-      CHECK(image == image_of_one);
-      CHECK(sums == sums_of_one);
-    }
-  });
 }
 
 TEST_CASE("info states the shared limits") {
