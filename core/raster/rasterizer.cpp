@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "core/base/error.h"
+#include "core/base/parallel.h"
 
 namespace rangezip {
 
@@ -51,14 +53,27 @@ void check_points(const std::string& where, const DrawPoints& points, const Rast
   }
 }
 
-void check_triangles(const std::string& where, const DrawTriangles& item) {
-  check_placement(where, item.world_from_item);
+std::uint32_t largest_corner(std::span<const Triangle> triangles) {
   Triangle most{};  // one maximum per corner: they do not wait for each other
-  for (const Triangle& t : item.triangles) {
+  for (const Triangle& t : triangles) {
     for (std::size_t corner = 0; corner < 3; ++corner)
       most[corner] = std::max(most[corner], t[corner]);
   }
-  const std::uint32_t largest = std::max({most[0], most[1], most[2]});
+  return std::max({most[0], most[1], most[2]});
+}
+
+std::uint32_t largest_corner_in_parallel(std::span<const Triangle> triangles) {
+  constexpr std::size_t kGrain = std::size_t{1} << 16;
+  std::vector<std::uint32_t> largest((triangles.size() + kGrain - 1) / kGrain);
+  parallel_for(triangles.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    largest[begin / kGrain] = largest_corner(triangles.subspan(begin, end - begin));
+  });
+  return largest.empty() ? 0 : *std::max_element(largest.begin(), largest.end());
+}
+
+void check_triangles(const std::string& where, const DrawTriangles& item) {
+  check_placement(where, item.world_from_item);
+  const std::uint32_t largest = largest_corner_in_parallel(item.triangles);
   if (!item.triangles.empty() && largest >= item.positions.size()) {
     throw InvalidArgument(where + ": corner index " + std::to_string(largest) +
                           " is out of range; the item has " +
