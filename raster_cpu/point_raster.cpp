@@ -67,7 +67,7 @@ bool are_close(const SnappedPosition& a, const SnappedPosition& b) {
 
 }  // namespace
 
-bool follow_each_other(const RowTransform& rows, std::span<const Vec3f> positions) {
+bool neighbours_fall_close(const RowTransform& rows, std::span<const Vec3f> positions) {
   constexpr std::size_t kPairs = 256;
   if (positions.size() < 2) return true;
   std::size_t close = 0;

@@ -75,7 +75,7 @@ std::vector<ScenePainter::Step> ScenePainter::plan(std::span<const DrawItem> ite
     const auto* points = std::get_if<DrawPoints>(&item);
     if (points == nullptr || kernels_ == nullptr || points->point_size > kMaxBinnedSize) continue;
     step.is_binned = points->point_size > 1 || (view_.extent().count() > kCachedPixels &&
-                                                !follow_each_other(step.rows, points->positions));
+                                                !neighbours_fall_close(step.rows, points->positions));
   }
   return steps;
 }

@@ -51,16 +51,15 @@ struct InputFile {
 [[nodiscard]] InputFile read_input(const std::filesystem::path& path,
                                    const Progress& progress = {});
 
-/// All files as one scene, in order.
-/// @throws IoError as read_input(); also if fewer than three distinct finite points (or one
-/// triangle)
-///     remain in all of them.
+/// A scene and what was found in its files.
 struct SceneInput {
   Scene scene;
   std::vector<InputReport> reports;
 };
 
-/// All files as one scene, in order.
+/// All files as one scene, in order, for scanning: the points of a cloud whose order is not local
+/// are put in order along a curve (see curve_order.h), which draws faster and changes nothing but
+/// their IDs, and so which of two equally near ones is drawn.
 /// @throws IoError as read_input(); also if all points and corners together are fewer than three,
 ///     equal, or on one line (none farther from it than 1e-5 of the size of the whole).
 /// @throws InvalidArgument if there is no path.

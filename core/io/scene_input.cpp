@@ -1,10 +1,12 @@
 #include <iterator>
+#include <memory>
 #include <string>
 #include <utility>
 #include <variant>
 
 #include "core/base/error.h"
 #include "core/io/input_file.h"
+#include "core/scene/curve_order.h"
 
 namespace rangezip {
 
@@ -79,6 +81,12 @@ void check_extent(const Scene& scene, std::span<const std::filesystem::path> pat
   }
 }
 
+/// The cloud itself, or another in an order that is drawn faster.
+std::shared_ptr<const PointCloud> for_scanning(std::shared_ptr<const PointCloud> cloud) {
+  if (follow_each_other(cloud->positions)) return cloud;
+  return std::make_shared<const PointCloud>(PointCloud{ordered_along_curve(cloud->positions)});
+}
+
 }  // namespace
 
 SceneInput read_scene(std::span<const std::filesystem::path> paths, const Progress& progress) {
@@ -89,7 +97,7 @@ SceneInput read_scene(std::span<const std::filesystem::path> paths, const Progre
     InputFile file = read_input(paths[i], progress);
     for (InputItem& item : file.items) {
       if (item.cloud) {
-        input.scene.add(std::move(item.cloud), item.world_from_item);
+        input.scene.add(for_scanning(std::move(item.cloud)), item.world_from_item);
       } else {
         input.scene.add(std::move(item.soup), item.world_from_item);
       }
