@@ -55,8 +55,8 @@ std::size_t BinnedPoints::add(const DrawPoints& points, const RowTransform& rows
   return sum;
 }
 
-template <class Image>
-void BinnedPoints::draw_bands(std::span<const PixelKey> under, Image&& out) {
+template <class Store>
+void BinnedPoints::draw_bands(std::span<const PixelKey> under, const Store& store) {
   std::atomic<int> next{0};
   parallel_for(tiles_.size(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t part = first; part < last; ++part) {
@@ -67,7 +67,7 @@ void BinnedPoints::draw_bands(std::span<const PixelKey> under, Image&& out) {
           for (const PointBins::Run& run : bins.runs(static_cast<std::size_t>(band)))
             kernels_->draw_fragments(run, tile);
         }
-        tile.store(out);
+        store(tile);
       }
     }
   });
@@ -75,12 +75,26 @@ void BinnedPoints::draw_bands(std::span<const PixelKey> under, Image&& out) {
 }
 
 void BinnedPoints::draw(std::span<const PixelKey> under, std::span<PixelKey> out) {
-  draw_bands(under, out);
+  draw_bands(under, [&](const Tile& tile) { tile.store(out); });
 }
 
 void BinnedPoints::draw(std::span<const PixelKey> under, Framebuffer& out) {
+  constexpr std::size_t kCachedPixels = std::size_t{1} << 21;
   set_extent(out, layout_.extent);
-  draw_bands(under, out);
+  if (layout_.extent.count() < kCachedPixels) {
+    draw_bands(under, [&](const Tile& tile) {
+      tile.unpack([&](std::span<const PixelKey> keys, std::size_t first) {
+        unpack_keys(keys, first, out);
+      });
+    });
+  } else {
+    draw_bands(under, [&](const Tile& tile) {
+      tile.unpack([&](std::span<const PixelKey> keys, std::size_t first) {
+        kernels_->unpack_past_cache(keys, out.depth.pixels().data() + first,
+                                    out.id.pixels().data() + first);
+      });
+    });
+  }
 }
 
 }  // namespace rangezip

@@ -39,8 +39,8 @@ class BinnedPoints {
   void draw(std::span<const PixelKey> under, Framebuffer& out);
 
  private:
-  template <class Image>
-  void draw_bands(std::span<const PixelKey> under, Image&& out);
+  template <class Store>
+  void draw_bands(std::span<const PixelKey> under, const Store& store);
   void forget();
 
   const SimdKernels* kernels_ = nullptr;

@@ -11,7 +11,8 @@ namespace rangezip {
 
 /// Whether the item's points lie in an order in which most fall close to the one before: along a
 /// scan line, a curve. Judged by 256 pairs.
-[[nodiscard]] bool neighbours_fall_close(const RowTransform& rows, std::span<const Vec3f> positions);
+[[nodiscard]] bool neighbours_fall_close(const RowTransform& rows,
+                                         std::span<const Vec3f> positions);
 
 /// Draws the points begin..end-1 of an item as squares (R2-R5, R9, R11, R12).
 /// @param kernels null: the scalar code, which is the norm

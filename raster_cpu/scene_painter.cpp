@@ -74,8 +74,9 @@ std::vector<ScenePainter::Step> ScenePainter::plan(std::span<const DrawItem> ite
         [&](const auto& i) { return make_row_transform(view_, i.world_from_item); }, item);
     const auto* points = std::get_if<DrawPoints>(&item);
     if (points == nullptr || kernels_ == nullptr || points->point_size > kMaxBinnedSize) continue;
-    step.is_binned = points->point_size > 1 || (view_.extent().count() > kCachedPixels &&
-                                                !neighbours_fall_close(step.rows, points->positions));
+    step.is_binned =
+        points->point_size > 1 || (view_.extent().count() > kCachedPixels &&
+                                   !neighbours_fall_close(step.rows, points->positions));
   }
   return steps;
 }

@@ -49,6 +49,10 @@ struct SimdKernels {
                             const BandLayout& layout, PointBins& bins) = nullptr;
   /// R9 and R12: draws fragments that bin_points() made. Writes back what it reads beside them.
   void (*draw_fragments)(const PointBins::Run& run, Tile& tile) = nullptr;
+  /// As unpack_keys(), for an image that the cache cannot hold: it is not read before it is
+  /// written.
+  void (*unpack_past_cache)(std::span<const PixelKey> keys, std::uint32_t* depth,
+                            PrimitiveId* id) = nullptr;
   /// R6, R7, R9, R12: draws those of the triangles begin..end-1 of an item that cover a few pixels
   /// at most, and puts the numbers of those that are left to the caller into `left`.
   /// @return how many it looked at: whole vectors

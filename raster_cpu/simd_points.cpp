@@ -252,6 +252,33 @@ void draw_fragments(const PointBins::Run& run, Tile& tile) {
   }
 }
 
+void unpack_past_cache(std::span<const PixelKey> keys, std::uint32_t* depth, PrimitiveId* id) {
+  const hn::CappedTag<std::uint32_t, 4> d;
+  constexpr std::size_t kKeys = hn::MaxLanes(d);
+  const auto is_aligned = [](const std::uint32_t* at) {
+    return reinterpret_cast<std::uintptr_t>(at) % (kKeys * sizeof(*at)) == 0;
+  };
+  std::size_t i = 0;
+  const auto unpack_one = [&] {
+    depth[i] = static_cast<std::uint32_t>(keys[i] >> 32U);
+    id[i] = static_cast<PrimitiveId>(keys[i]);
+    ++i;
+  };
+  while (i < keys.size() && !is_aligned(depth + i))
+    unpack_one();
+  for (; i + kKeys <= keys.size() && is_aligned(id + i); i += kKeys) {
+    const auto* const halves = reinterpret_cast<const std::uint32_t*>(&keys[i]);
+    hn::Vec<decltype(d)> low, high;
+    hn::LoadInterleaved2(d, halves, low, high);
+    if constexpr (std::endian::native == std::endian::big) std::swap(low, high);
+    hn::Stream(high, d, depth + i);
+    hn::Stream(low, d, id + i);
+  }
+  while (i < keys.size())
+    unpack_one();
+  hwy::FlushStream();
+}
+
 }  // namespace
 #endif
 
@@ -261,6 +288,7 @@ void add_point_kernels([[maybe_unused]] SimdKernels& kernels) {
   kernels.draw_single_pixels = &draw_single_pixels;
   kernels.bin_points = &bin_points;
   kernels.draw_fragments = &draw_fragments;
+  kernels.unpack_past_cache = &unpack_past_cache;
 #endif
 }
 

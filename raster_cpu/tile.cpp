@@ -53,12 +53,4 @@ void Tile::store(std::span<PixelKey> image) const {
   }
 }
 
-void Tile::store(Framebuffer& image) const {
-  const auto width = static_cast<std::size_t>(layout_.extent.width);
-  for (int y = rows_.first; y <= rows_.last; ++y) {
-    const TileRow row = tile_row(layout_, rows_, y);
-    unpack_keys(std::span(keys_).subspan(row.in_tile, width), row.in_image, image);
-  }
-}
-
 }  // namespace rangezip

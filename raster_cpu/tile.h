@@ -20,7 +20,15 @@ class Tile {
 
   /// The band's part of the image becomes what the tile holds.
   void store(std::span<PixelKey> image) const;
-  void store(Framebuffer& image) const;
+  /// Calls unpack(keys, first pixel) for each row of the band.
+  template <class Unpack>
+  void unpack(const Unpack& unpack) const {
+    for (int y = rows_.first; y <= rows_.last; ++y) {
+      unpack(std::span(keys_).subspan(layout_.in_tile(0, y - rows_.first),
+                                      static_cast<std::size_t>(layout_.extent.width)),
+             layout_.extent.index({0, y}));
+    }
+  }
 
   [[nodiscard]] PixelKey* keys() { return keys_.data(); }
   [[nodiscard]] std::size_t stride() const { return static_cast<std::size_t>(layout_.stride()); }
