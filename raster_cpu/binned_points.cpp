@@ -79,22 +79,12 @@ void BinnedPoints::draw(std::span<const PixelKey> under, std::span<PixelKey> out
 }
 
 void BinnedPoints::draw(std::span<const PixelKey> under, Framebuffer& out) {
-  constexpr std::size_t kCachedPixels = std::size_t{1} << 21;
   set_extent(out, layout_.extent);
-  if (layout_.extent.count() < kCachedPixels) {
-    draw_bands(under, [&](const Tile& tile) {
-      tile.unpack([&](std::span<const PixelKey> keys, std::size_t first) {
-        unpack_keys(keys, first, out);
-      });
+  draw_bands(under, [&](const Tile& tile) {
+    tile.unpack([&](std::span<const PixelKey> keys, std::size_t first) {
+      unpack_into_image(keys, first, kernels_, out);
     });
-  } else {
-    draw_bands(under, [&](const Tile& tile) {
-      tile.unpack([&](std::span<const PixelKey> keys, std::size_t first) {
-        kernels_->unpack_past_cache(keys, out.depth.pixels().data() + first,
-                                    out.id.pixels().data() + first);
-      });
-    });
-  }
+  });
 }
 
 }  // namespace rangezip

@@ -149,7 +149,7 @@ void ScenePainter::unpack_layers(Framebuffer& out) {
       for (std::size_t layer = 1; layer < layers_; ++layer)
         merge_keys(std::span(merged).first(count),
                    std::span(memory_.layers[layer]).subspan(at, count));
-      unpack_keys(std::span(merged).first(count), at, out);
+      unpack_into_image(std::span(merged).first(count), at, kernels_, out);
     }
   });
 }

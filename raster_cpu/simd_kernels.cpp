@@ -38,4 +38,13 @@ const std::vector<SimdKernels>& simd_kernels() {
   return kernels;
 }
 
+void unpack_into_image(std::span<const PixelKey> keys, std::size_t first,
+                       const SimdKernels* kernels, Framebuffer& out) {
+  constexpr std::size_t kCachedPixels = std::size_t{1} << 21;
+  if (kernels == nullptr || out.depth.extent().count() < kCachedPixels)
+    return unpack_keys(keys, first, out);
+  kernels->unpack_past_cache(keys, out.depth.pixels().data() + first,
+                             out.id.pixels().data() + first);
+}
+
 }  // namespace rangezip

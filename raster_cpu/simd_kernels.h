@@ -47,7 +47,7 @@ struct SimdKernels {
   /// bins. @return number rejected by R3 or R4. @pre at most kMaxRun positions
   std::size_t (*bin_points)(const RowTransform& rows, std::span<const Vec3f> positions, int size,
                             const BandLayout& layout, PointBins& bins) = nullptr;
-  /// R9 and R12: draws fragments that bin_points() made. Writes back what it reads beside them.
+  /// R9 and R12: draws fragments that bin_points() made.
   void (*draw_fragments)(const PointBins::Run& run, Tile& tile) = nullptr;
   /// As unpack_keys(), for an image that the cache cannot hold: it is not read before it is
   /// written.
@@ -69,6 +69,11 @@ struct SimdKernels {
 
 /// The sets of instructions that this machine has, the widest first. Found out once.
 [[nodiscard]] const std::vector<SimdKernels>& simd_kernels();
+
+/// unpack_keys(), past the cache where the image is too large for it.
+/// @param kernels null: scalar code
+void unpack_into_image(std::span<const PixelKey> keys, std::size_t first,
+                       const SimdKernels* kernels, Framebuffer& out);
 
 /// Each adds its kernels for one set of instructions, by Highway's number of it; nothing if it was
 /// not compiled. For simd_kernels().

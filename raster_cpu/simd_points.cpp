@@ -192,27 +192,24 @@ void lower_pixels(const PointBins::Run& run, PixelKey* keys) {
   }
 }
 
-/// Lowers squares of pixels, with vectors that reach past each row of a square and write there what
-/// they read.
-template <int kSize>
+/// Lowers kCount pixels of a row: by the largest vectors that fit, then by smaller ones.
+template <std::size_t kCount>
+HWY_INLINE void lower_row(PixelKey* row, PixelKey wanted) {
+  if constexpr (kCount > 0) {
+    const hn::CappedTag<PixelKey, std::bit_floor(kCount)> d;
+    constexpr std::size_t kKeys = hn::MaxLanes(d);
+    hn::StoreU(hn::Min(hn::LoadU(d, row), hn::Set(d, wanted)), d, row);
+    lower_row<kCount - kKeys>(row + kKeys, wanted);
+  }
+}
+
+template <std::size_t kSize>
 void lower_squares(const PointBins::Run& run, PixelKey* keys, std::size_t stride) {
-  using Keys = hn::CappedTag<PixelKey, std::bit_ceil(static_cast<unsigned>(kSize))>;
-  const Keys d;
-  constexpr std::size_t kKeys = hn::MaxLanes(Keys());
   for (const Fragment fragment : run.entries) {
-    const auto wanted = hn::Set(d, key_of(fragment, run.first_id));
+    const PixelKey wanted = key_of(fragment, run.first_id);
     PixelKey* row = keys + tile_pixel(fragment);
-    for (int y = 0; y < kSize; ++y, row += stride) {
-      for (std::size_t x = 0; x < kSize; x += kKeys) {
-        const auto now = hn::LoadU(d, row + x);
-        const auto lowered = hn::Min(now, wanted);
-        if (x + kKeys <= kSize) {
-          hn::StoreU(lowered, d, row + x);
-        } else {
-          hn::StoreU(hn::IfThenElse(hn::FirstN(d, kSize - x), lowered, now), d, row + x);
-        }
-      }
-    }
+    for (std::size_t y = 0; y < kSize; ++y, row += stride)
+      lower_row<kSize>(row, wanted);
   }
 }
 

@@ -23,7 +23,7 @@ void Tile::load(const BandLayout& layout, int band, std::span<const PixelKey> im
   layout_ = layout;
   rows_ = layout.rows_of(band);
   is_banded_ = depths != nullptr;
-  keys_.assign(layout.tile_pixels() + kKeyPadding, kEmptyPixel);
+  keys_.assign(layout.tile_pixels(), kEmptyPixel);
   const auto width = static_cast<std::size_t>(layout.extent.width);
   if (!image.empty()) {
     for (int y = rows_.first; y <= rows_.last; ++y) {

@@ -48,7 +48,7 @@ class Tile {
   BandLayout layout_;
   PixelRange rows_;
   bool is_banded_ = false;
-  std::vector<PixelKey> keys_;  ///< kKeyPadding more than the tile has pixels
+  std::vector<PixelKey> keys_;
   std::vector<std::int32_t> lower_;
   std::vector<std::int32_t> upper_;
 };
