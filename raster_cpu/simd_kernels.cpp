@@ -1,5 +1,7 @@
 #include "raster_cpu/simd_kernels.h"
 
+#include "raster_cpu/simd_targets.h"
+
 #include <hwy/highway.h>
 
 namespace rangezip {

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <array>
 
-// Vectors whose length is known only at run time can be no members; ARM has NEON beside them.
-#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#include "raster_cpu/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster_cpu/simd_moments.cpp"  // NOLINT
@@ -87,18 +86,14 @@ HWY_INLINE SumVec product(SumVec a, SumVec b) {
 /// Sums of the points of one cell for its pixels, in registers.
 class CellSums {
  public:
-  /// @param left, below the pixel at the cell's lower left
+  /// @param lower_row, upper_row the pixels at the cell's lower left and upper left
   CellSums(const AccumulateWindow& window, std::size_t lower_row, std::size_t upper_row)
-      : shift_(window.shift) {
-    for (std::size_t k = 0; k < kSumVectors; ++k) {
-      lower_[k] = load(window.band.lower, lower_row, upper_row, k);
-      upper_[k] = load(window.band.upper, lower_row, upper_row, k);
-      reference_[k] = load(window.reference, lower_row, upper_row, k);
-      count_[k] = hn::Zero(Sums());
-      for (auto& sum : sums_)
-        sum[k] = hn::Zero(Sums());
-    }
-  }
+      : shift_(window.shift),
+        lower_(load(window.band.lower, lower_row, upper_row)),
+        upper_(load(window.band.upper, lower_row, upper_row)),
+        reference_(load(window.reference, lower_row, upper_row)),
+        count_(zero()),
+        sums_{zero(), zero(), zero(), zero(), zero(), zero(), zero(), zero(), zero(), zero()} {}
 
   HWY_INLINE void add(BinEntry entry) {
     const Sums d;
@@ -157,18 +152,26 @@ class CellSums {
  private:
   using Pair = hn::CappedTag<std::int64_t, 2>;
 
-  /// Two values of one row of pixels, or two of each.
-  static HWY_INLINE SumVec load(const Grid<std::int32_t>& grid, std::size_t lower_row,
-                                std::size_t upper_row, std::size_t k) {
-    const hn::CappedTag<std::int32_t, 2> two;
-    const std::int32_t* const pixels = grid.pixels().data();
+  /// A value for each of the four pixels.
+  using FourPixels = std::array<SumVec, kSumVectors>;
+
+  static HWY_INLINE FourPixels zero() {
 #if HWY_MAX_BYTES >= 32
-    static_cast<void>(k);
-    const hn::CappedTag<std::int32_t, 4> four;
-    return hn::PromoteTo(Sums(), hn::Combine(four, hn::LoadU(two, pixels + upper_row),
-                                             hn::LoadU(two, pixels + lower_row)));
+    return {hn::Zero(Sums())};
 #else
-    return hn::PromoteTo(Sums(), hn::LoadU(two, pixels + (k == 0 ? lower_row : upper_row)));
+    return {hn::Zero(Sums()), hn::Zero(Sums())};
+#endif
+  }
+
+  static HWY_INLINE FourPixels load(const Grid<std::int32_t>& grid, std::size_t lower_row,
+                                    std::size_t upper_row) {
+    const hn::CappedTag<std::int32_t, 2> two;
+    const auto lower = hn::LoadU(two, grid.pixels().data() + lower_row);
+    const auto upper = hn::LoadU(two, grid.pixels().data() + upper_row);
+#if HWY_MAX_BYTES >= 32
+    return {hn::PromoteTo(Sums(), hn::Combine(hn::CappedTag<std::int32_t, 4>(), upper, lower))};
+#else
+    return {hn::PromoteTo(Sums(), lower), hn::PromoteTo(Sums(), upper)};
 #endif
   }
 
@@ -199,8 +202,8 @@ class CellSums {
   }
 
   int shift_;
-  std::array<SumVec, kSumVectors> lower_, upper_, reference_, count_;
-  std::array<std::array<SumVec, kSumVectors>, 10> sums_;
+  FourPixels lower_, upper_, reference_, count_;
+  std::array<FourPixels, 10> sums_;
 };
 
 void add_moments(std::span<const BinEntry> entries, std::size_t bin, PixelRange rows,

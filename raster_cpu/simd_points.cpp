@@ -3,8 +3,7 @@
 
 #include <algorithm>
 
-// Vectors whose length is known only at run time can be no members; ARM has NEON beside them.
-#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#include "raster_cpu/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster_cpu/simd_points.cpp"  // NOLINT

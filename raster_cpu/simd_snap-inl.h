@@ -37,7 +37,9 @@ using Mask = hn::Mask<Ints>;
 
 constexpr std::size_t kLanes = hn::MaxLanes(Floats());
 
-/// Positions of a vector of points, one coordinate a vector.
+/// Positions of a vector of points, one coordinate a vector. Like all structures of vectors here,
+/// only made whole: on some targets a vector's default constructor can be called by functions
+/// alone.
 struct Lanes {
   FloatVec x, y, z;
 };
@@ -50,9 +52,9 @@ struct SnappedLanes {
 
 HWY_INLINE Lanes load(const Vec3f* positions) {
   const Floats d;
-  Lanes p;
-  hn::LoadInterleaved3(d, &positions->x, p.x, p.y, p.z);
-  return p;
+  FloatVec x, y, z;
+  hn::LoadInterleaved3(d, &positions->x, x, y, z);
+  return {x, y, z};
 }
 
 /// R2. Never fused: the build forbids contraction.
@@ -99,8 +101,8 @@ HWY_INLINE hn::Vec<hn::Rebind<std::int32_t, D>> round_quotient(D d, hn::Vec<D> v
   return hn::BitCast(hn::RebindToSigned<decltype(d32)>(), low);
 }
 
-/// The quotients of R4: x, y and z over w.
-HWY_INLINE void divide_by_w(FloatVec x, FloatVec y, FloatVec z, FloatVec w, SnappedLanes& s) {
+/// R4 for x, y and z over w.
+HWY_INLINE SnappedLanes divide_by_w(FloatVec x, FloatVec y, FloatVec z, FloatVec w, Mask valid) {
   const hn::Repartition<double, Floats> d;
   const hn::Half<Floats> half;
   const auto one = hn::Set(d, 1.0);
@@ -111,9 +113,7 @@ HWY_INLINE void divide_by_w(FloatVec x, FloatVec y, FloatVec z, FloatVec w, Snap
     const auto high = round_quotient(d, hn::PromoteTo(d, hn::UpperHalf(half, v)), per_high);
     return hn::Combine(Ints(), high, low);
   };
-  s.x = quotients(x);
-  s.y = quotients(y);
-  s.z = quotients(z);
+  return {quotients(x), quotients(y), quotients(z), valid};
 }
 
 /// R4.
@@ -127,10 +127,7 @@ HWY_INLINE SnappedLanes snap_central(const RowTransform& rows, const Lanes& p) {
   auto valid = hn::And(hn::Ge(w, hn::Set(d, 0x1p-64F)), hn::Le(w, hn::Set(d, 0x1p64F)));
   valid = hn::And(valid, hn::And(is_within(x, max_xy), is_within(y, max_xy)));
   valid = hn::And(valid, is_within(z, max_z));
-  SnappedLanes s;
-  divide_by_w(x, y, z, w, s);
-  s.valid = hn::RebindMask(Ints(), valid);
-  return s;
+  return divide_by_w(x, y, z, w, hn::RebindMask(Ints(), valid));
 }
 
 /// R11.

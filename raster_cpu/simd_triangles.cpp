@@ -5,8 +5,7 @@
 #include <array>
 #include <bit>
 
-// Vectors whose length is known only at run time can be no members; ARM has NEON beside them.
-#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#include "raster_cpu/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster_cpu/simd_triangles.cpp"  // NOLINT
@@ -26,15 +25,19 @@ struct Corners {
   std::array<IntVec, 3> x, y, z;
 };
 
-/// Corner `corner` of kLanes triangles, by gathering from the snapped positions.
-HWY_INLINE void gather_corner(std::span<const SnappedPosition> snapped, IntVec vertices,
-                              std::size_t corner, Corners& c) {
+/// The corners of kLanes triangles, by gathering from the snapped positions.
+HWY_INLINE Corners gather_corners(std::span<const SnappedPosition> snapped, IntVec a, IntVec b,
+                                  IntVec c) {
   static_assert(sizeof(SnappedPosition) == 3 * sizeof(std::int32_t));
   const Ints d;
-  const IntVec at = hn::Add(hn::Add(vertices, vertices), vertices);
-  c.x[corner] = hn::GatherIndex(d, &snapped.data()->x, at);
-  c.y[corner] = hn::GatherIndex(d, &snapped.data()->y, at);
-  c.z[corner] = hn::GatherIndex(d, &snapped.data()->z, at);
+  const auto gather = [&](const std::int32_t* coordinate, IntVec vertices) {
+    const IntVec at = hn::Add(hn::Add(vertices, vertices), vertices);
+    return hn::GatherIndex(d, coordinate, at);
+  };
+  const SnappedPosition* const first = snapped.data();
+  return {{gather(&first->x, a), gather(&first->x, b), gather(&first->x, c)},
+          {gather(&first->y, a), gather(&first->y, b), gather(&first->y, c)},
+          {gather(&first->z, a), gather(&first->z, b), gather(&first->z, c)}};
 }
 
 HWY_INLINE IntVec least(const std::array<IntVec, 3>& v) {
@@ -79,13 +82,11 @@ class DepthLanes {
   using HalfIntVec = hn::Vec<HalfInts>;
 
   DepthLanes(HalfIntVec z_a, HalfIntVec z_b, HalfIntVec z_c, HalfIntVec area)
-      : z_a_c_(hn::PromoteTo(d_, hn::Sub(z_a, z_c))), z_b_c_(hn::PromoteTo(d_, hn::Sub(z_b, z_c))) {
-    const auto area_d = hn::PromoteTo(d_, area);
-    const auto one = hn::Set(d_, 1.0);
-    addend_ = hn::Mul(hn::Sub(one, area_d), hn::Set(d_, 0.5));
-    per_area_ = hn::Div(one, area_d);
-    to_low_bits_ = hn::Add(hn::Set(d_, 0x1.8p52), hn::PromoteTo(d_, z_c));
-  }
+      : z_a_c_(hn::PromoteTo(d_, hn::Sub(z_a, z_c))),
+        z_b_c_(hn::PromoteTo(d_, hn::Sub(z_b, z_c))),
+        addend_(hn::Mul(hn::Sub(hn::Set(d_, 1.0), hn::PromoteTo(d_, area)), hn::Set(d_, 0.5))),
+        per_area_(hn::Div(hn::Set(d_, 1.0), hn::PromoteTo(d_, area))),
+        to_low_bits_(hn::Add(hn::Set(d_, 0x1.8p52), hn::PromoteTo(d_, z_c))) {}
 
   [[nodiscard]] HWY_INLINE HalfIntVec at(HalfIntVec e_a, HalfIntVec e_b) const {
     const auto n =
@@ -115,10 +116,7 @@ class TinyTriangles {
     prefetch_after(item_.triangles, at);
     IntVec a, b, c;
     hn::LoadInterleaved3(d, reinterpret_cast<const std::int32_t*>(&item_.triangles[at]), a, b, c);
-    Corners p;
-    gather_corner(snapped_, a, 0, p);
-    gather_corner(snapped_, b, 1, p);
-    gather_corner(snapped_, c, 2, p);
+    Corners p = gather_corners(snapped_, a, b, c);
 
     const IntVec x_min = least(p.x), x_max = greatest(p.x);
     const IntVec y_min = least(p.y), y_max = greatest(p.y);
@@ -268,7 +266,8 @@ class PixelFunction {
       : row_(at_first),
         step_y_(step_y),
         across_(hn::Mul(hn::Iota(d_, 0.0), hn::Set(d_, step_x))),
-        step_(hn::Set(d_, step_x * static_cast<double>(hn::Lanes(d_)))) {}
+        step_(hn::Set(d_, step_x * static_cast<double>(hn::Lanes(d_)))),
+        now_(across_) {}
 
   HWY_INLINE void to_row_start() { now_ = hn::Add(hn::Set(d_, row_), across_); }
   HWY_INLINE void to_next_pixels() { now_ = hn::Add(now_, step_); }
