@@ -18,9 +18,10 @@ struct SimdKernels;
 /// The reference: docs/rasterization.md in code, the same bits everywhere. Uses the threads of the
 /// enclosing run_with_threads(); the image never depends on their number.
 ///
-/// Keeps its working memory from call to call: 8 bytes a pixel (times the threads that draw, for
-/// large scenes) and 12 bytes a corner of the largest item; accumulate() takes 4 bytes a pixel and
-/// at most 28 MB.
+/// Keeps its working memory from call to call, per pixel of the largest image so far: 8 bytes, times
+/// the threads that draw where triangles, large points or points in a local order are drawn; 8 bytes
+/// (but at least 32 MB) for small points in any order; for accumulate() at most the 80 bytes of its
+/// result, and 4. Triangles take 12 bytes a corner of the largest item.
 class CpuRasterizer final : public Rasterizer {
  public:
   CpuRasterizer();  ///< with the widest instructions of this machine

@@ -6,6 +6,7 @@
 # Usage: scripts/bench.sh [quick|full]
 set -euo pipefail
 cd "$(dirname "$0")/.."
+source benchmarks/names.sh
 
 extent=${1:-quick}
 [ "$extent" = quick ] || [ "$extent" = full ] || {
@@ -16,19 +17,16 @@ scripts/install-deps.sh >&2
 cmake --preset release >/dev/null
 cmake --build --preset release --target raster_benchmark io_benchmark -- --quiet >&2
 
-model=$(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo | head -n 1)
-machine=$(printf '%s-%s-threads' "${model:-unknown}" "$(nproc)" | tr -cs '[:alnum:]-' '-')
-revision=$(git describe --always --dirty 2>/dev/null || echo unknown)
 results=benchmarks/results
 mkdir -p "$results"
 
 # measure WHAT [ARGUMENT...]: runs WHAT_benchmark.
 measure() {
-  local file=$results/$1-$machine.json
-  "build/release/benchmarks/$1_benchmark" "${@:2}" --revision "$revision" --json "$file" >&2
+  local file=$results/$1-$(machine_name).json
+  "build/release/benchmarks/$1_benchmark" "${@:2}" --revision "$(revision)" --json "$file" >&2
   echo "stored in $file" >&2
 }
 
 measure raster "$extent"
 measure io
-benchmarks/table.py "$results/raster-$machine.json"
+benchmarks/table.py "$results/raster-$(machine_name).json"

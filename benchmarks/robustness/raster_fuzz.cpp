@@ -1,6 +1,6 @@
 // Draws random scenes with every set of vector instructions and 1 to 8 threads, and compares depth
 // and ID of every pixel, and all ten sums, with scalar code in one thread.
-//   raster_fuzz [--pixels N] [--seed S] [--threads T] [--json FILE]
+//   raster_fuzz [--pixels N] [--seed S] [--threads T] [--json FILE] [--revision NAME]
 //       until N pixels (default 1e9) are compared, with up to T threads (default 8); then shows
 //       that rasterizers with wrong rules are noticed. Exit code 1 at the first difference, or if a
 //       wrong rule is not noticed.
@@ -13,7 +13,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -22,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/report.h"
 #include "tests/support/backends.h"
 #include "tests/support/raster_fuzz.h"
 #include "tests/support/threads.h"
@@ -39,6 +39,7 @@ struct Options {
   std::optional<std::uint64_t> scene;
   std::string control;
   std::string json;
+  std::string revision = "unknown";
 };
 
 /// What was compared; pixels once for each operation and rasterizer.
@@ -200,21 +201,6 @@ ordered_json run_controls(const Options& options, bool& all_noticed) {
   return rows;
 }
 
-std::string processor() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);) {
-    if (line.rfind("model name", 0) == 0) return line.substr(line.find(": ") + 2);
-  }
-  return "unknown";
-}
-
-std::string today() {
-  const std::time_t now = std::time(nullptr);
-  char text[16];
-  std::strftime(text, sizeof(text), "%Y-%m-%d", std::gmtime(&now));
-  return text;
-}
-
 ordered_json to_json(const Count& count) {
   return {{"scenes", count.scenes},
           {"pixels", count.pixels},
@@ -223,13 +209,11 @@ ordered_json to_json(const Count& count) {
 }
 
 ordered_json to_json(const Options& options, const Result& result, double seconds) {
-  ordered_json json{{"machine", processor()},
-                    {"compiler", RANGEZIP_COMPILER},
-                    {"build_type", RANGEZIP_BUILD_TYPE},
-                    {"date", today()},
-                    {"seconds", std::round(seconds)},
-                    {"seed", options.seed},
-                    {"reference", "scalar code, 1 thread"}};
+  ordered_json json = benchmark::describe_run("raster_fuzz", options.revision);
+  json["build_type"] = RANGEZIP_BUILD_TYPE;
+  json["seconds"] = std::round(seconds);
+  json["seed"] = options.seed;
+  json["reference"] = "scalar code, 1 thread";
   json.update(to_json(result.total));
   json["differing_pixels"] = result.failure ? result.failure->difference.pixels : 0;
   json["identical"] = !result.failure;
@@ -260,6 +244,8 @@ Options parse(const std::vector<std::string>& arguments) {
       options.control = value;
     } else if (name == "--json") {
       options.json = value;
+    } else if (name == "--revision") {
+      options.revision = value;
     } else {
       throw std::runtime_error("there is no option " + name);
     }

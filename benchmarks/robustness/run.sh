@@ -4,14 +4,13 @@
 # Usage: benchmarks/robustness/run.sh [OPTIONS OF raster_fuzz]     such as --pixels 1e9 --seed 1
 set -euo pipefail
 cd "$(dirname "$0")/../.."
+source benchmarks/names.sh
 
 scripts/install-deps.sh
 cmake --preset release >/dev/null
 cmake --build --preset release --target raster_fuzz -- --quiet
 
-model=$(sed -n 's/^model name[^:]*: *//p' /proc/cpuinfo | head -n 1)
-machine=$(printf '%s-%s-threads' "${model:-unknown}" "$(nproc)" | tr -cs '[:alnum:]-' '-')
 mkdir -p benchmarks/results
-result=benchmarks/results/raster-fuzz-$machine.json
-build/release/benchmarks/raster_fuzz "$@" --json "$result"
+result=benchmarks/results/raster-fuzz-$(machine_name).json
+build/release/benchmarks/raster_fuzz "$@" --revision "$(revision)" --json "$result"
 echo "result    $result"

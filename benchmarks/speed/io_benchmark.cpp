@@ -21,7 +21,7 @@
 #include <system_error>
 #include <vector>
 
-#include "benchmarks/speed/report.h"
+#include "benchmarks/report.h"
 #include "core/base/error.h"
 #include "core/io/atomic_file.h"
 #include "core/io/input_file.h"

@@ -12,7 +12,7 @@
 #include <string>
 #include <thread>
 
-#include "benchmarks/speed/report.h"
+#include "benchmarks/report.h"
 #include "core/base/parallel.h"
 
 // The limit of reading must not be that of narrow instructions.

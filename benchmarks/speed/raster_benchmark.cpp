@@ -16,10 +16,10 @@
 #include <utility>
 #include <vector>
 
+#include "benchmarks/report.h"
 #include "benchmarks/speed/measure.h"
 #include "benchmarks/speed/raster_cases.h"
 #include "benchmarks/speed/raster_scenes.h"
-#include "benchmarks/speed/report.h"
 #include "core/base/error.h"
 #include "core/io/atomic_file.h"
 #include "raster_cpu/cpu_rasterizer.h"

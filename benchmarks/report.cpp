@@ -1,4 +1,4 @@
-#include "benchmarks/speed/report.h"
+#include "benchmarks/report.h"
 
 #include <array>
 #include <cmath>
