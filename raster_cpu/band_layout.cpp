@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "raster_cpu/fragment.h"
+
 namespace rangezip {
 
 BandLayout make_band_layout(Extent extent, int point_size) {

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 
 #include "core/base/grid.h"
 #include "raster_cpu/fixed_point.h"
-#include "raster_cpu/point_bins.h"
 
 namespace rangezip {
 
@@ -14,7 +13,7 @@ inline constexpr int kMaxBinnedSize = 5;
 /// How an image is cut into bands of whole rows. Each is drawn in a tile of its own: its pixels and
 /// a margin around them, which takes what hangs over the band and is dropped. So nothing is clipped
 /// while a tile is drawn, and it stays in the second-level cache: 512 KB, up to 2 MB where the
-/// image is wide and the margin makes the band high.
+/// image is wide and the margin makes the band high (R12 needs as much again).
 struct BandLayout {
   Extent extent;
   int margin = 0;     ///< pixels on every side
@@ -39,26 +38,5 @@ struct BandLayout {
 
 /// For points up to `point_size` pixels wide. @pre 1 <= point_size <= kMaxBinnedSize
 [[nodiscard]] BandLayout make_band_layout(Extent extent, int point_size);
-
-/// A point in a band: the place of its lower left pixel in the tile, its depth, and its number in
-/// the run that it belongs to, from the highest bit down.
-using Fragment = BinEntry;
-inline constexpr int kRunBits = 22;
-inline constexpr int kFragmentDepthBits = 24;
-/// Points that a run may have.
-inline constexpr std::size_t kMaxRun = std::size_t{1} << kRunBits;
-/// Pixels that a tile may have.
-inline constexpr std::size_t kMaxTilePixels = std::size_t{1}
-                                              << (64 - kRunBits - kFragmentDepthBits);
-
-[[nodiscard]] constexpr std::size_t tile_pixel(Fragment f) noexcept {
-  return f >> (kRunBits + kFragmentDepthBits);
-}
-[[nodiscard]] constexpr std::uint32_t depth_of(Fragment f) noexcept {
-  return static_cast<std::uint32_t>(f >> kRunBits) & ((1U << kFragmentDepthBits) - 1U);
-}
-[[nodiscard]] constexpr std::uint32_t number_in_run(Fragment f) noexcept {
-  return static_cast<std::uint32_t>(f) & ((1U << kRunBits) - 1U);
-}
 
 }  // namespace rangezip

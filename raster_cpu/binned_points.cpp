@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <numeric>
 
 #include "core/base/parallel.h"
+#include "raster_cpu/unpack.h"
 
 namespace rangezip {
 
@@ -13,10 +15,8 @@ void BinnedPoints::begin(Extent extent, int largest, const DepthBand* depths,
   depths_ = depths;
   layout_ = make_band_layout(extent, largest);
   const auto threads = static_cast<std::size_t>(thread_count());
-  if (bins_.size() < threads) {
-    bins_.resize(threads);
-    tiles_.resize(threads);
-  }
+  bins_.resize(threads);
+  tiles_.resize(threads);
   forget();
 }
 
@@ -27,11 +27,7 @@ void BinnedPoints::forget() {
 }
 
 std::size_t BinnedPoints::room() const {
-  return std::min(kMaxRun, std::max(kMaxRun, layout_.extent.count()) - pending_);
-}
-
-bool BinnedPoints::is_empty() const {
-  return pending_ == 0;
+  return std::min(kMaxRun, std::max(batch_, layout_.extent.count()) - pending_);
 }
 
 std::size_t BinnedPoints::add(const DrawPoints& points, const RowTransform& rows, std::size_t begin,
@@ -49,10 +45,7 @@ std::size_t BinnedPoints::add(const DrawPoints& points, const RowTransform& rows
     }
   });
   pending_ += end - begin;
-  std::size_t sum = 0;
-  for (const std::size_t n : rejected)
-    sum += n;
-  return sum;
+  return std::reduce(rejected.begin(), rejected.end());
 }
 
 template <class Store>

@@ -7,6 +7,7 @@
 #include "core/raster/framebuffer.h"
 #include "core/raster/row_transform.h"
 #include "raster_cpu/band_layout.h"
+#include "raster_cpu/fragment.h"
 #include "raster_cpu/key_buffer.h"
 #include "raster_cpu/point_bins.h"
 #include "raster_cpu/simd_kernels.h"
@@ -18,15 +19,18 @@ namespace rangezip {
 /// bands of rows, then each band is drawn by itself. The order of drawing cannot show (R9), so
 /// threads share neither bins nor bands.
 ///
-/// Memory: 8 bytes a pending point, of which there are at most as many as pixels (or 2^22).
+/// Memory: 8 bytes a pending point, of which there are at most as many as pixels or as a batch, or
+/// 16 where points hang over their bands; and for each thread a tile and 4 KB a band.
 class BinnedPoints {
  public:
   /// Begins an image. @param largest size of the points to come, at most kMaxBinnedSize
   void begin(Extent extent, int largest, const DepthBand* depths, const SimdKernels& kernels);
 
+  /// How many points are held at least, however small the image; 2^22 without this.
+  void set_batch(std::size_t batch) { batch_ = batch; }
+
   /// How many points may be added before they must be drawn.
   [[nodiscard]] std::size_t room() const;
-  [[nodiscard]] bool is_empty() const;
 
   /// Sorts the points begin..end-1 of an item.
   /// @return number rejected by R3 or R4
@@ -46,6 +50,7 @@ class BinnedPoints {
   const SimdKernels* kernels_ = nullptr;
   const DepthBand* depths_ = nullptr;
   BandLayout layout_;
+  std::size_t batch_ = kMaxRun;
   std::size_t pending_ = 0;
   std::vector<PointBins> bins_;  ///< one a thread
   std::vector<Tile> tiles_;      ///< one a thread

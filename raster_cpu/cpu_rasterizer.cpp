@@ -1,6 +1,5 @@
 #include "raster_cpu/cpu_rasterizer.h"
 
-#include <algorithm>
 #include <vector>
 
 #include "core/base/error.h"
@@ -33,8 +32,11 @@ std::vector<std::string> cpu_instructions() {
 
 CpuRasterizer::CpuRasterizer() : CpuRasterizer(cpu_instructions().front()) {}
 
-CpuRasterizer::CpuRasterizer(std::string_view instructions)
+CpuRasterizer::CpuRasterizer(std::string_view instructions, std::size_t batch)
     : workspace_(std::make_unique<Workspace>()) {
+  if (batch == 0) throw InvalidArgument("CpuRasterizer: batch must be at least 1");
+  workspace_->painter.binned.set_batch(batch);
+  workspace_->moments.batch = batch;
   if (instructions == kScalar) return;
   for (const SimdKernels& kernels : simd_kernels()) {
     if (kernels.name == instructions) kernels_ = &kernels;

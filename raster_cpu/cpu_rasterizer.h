@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -18,15 +19,19 @@ struct SimdKernels;
 /// The reference: docs/rasterization.md in code, the same bits everywhere. Uses the threads of the
 /// enclosing run_with_threads(); the image never depends on their number.
 ///
-/// Keeps its working memory from call to call, per pixel of the largest image so far: 8 bytes, times
-/// the threads that draw where triangles, large points or points in a local order are drawn; 8 bytes
-/// (but at least 32 MB) for small points in any order; for accumulate() at most the 80 bytes of its
-/// result, and 4. Triangles take 12 bytes a corner of the largest item.
+/// Keeps its working memory from call to call. Drawing takes 8 bytes a pixel (times the threads
+/// that draw, for large scenes), 12 bytes a corner of the largest item, and for small points 8 to
+/// 16 bytes each of as many as there are pixels, or 2^22; accumulate() 84 bytes a pixel, at least
+/// 32 MB where there are so many points. Each thread takes up to 12 MB besides, in the largest
+/// images.
 class CpuRasterizer final : public Rasterizer {
  public:
   CpuRasterizer();  ///< with the widest instructions of this machine
-  /// @param instructions one of cpu_instructions(). @throws InvalidArgument for another
-  explicit CpuRasterizer(std::string_view instructions);
+  /// @param instructions one of cpu_instructions()
+  /// @param batch so many points at least are sorted before they are drawn, at 8 to 16 bytes each;
+  ///     less memory and more passes over the image with a smaller one. It cannot show.
+  /// @throws InvalidArgument for other instructions, and for a batch of 0
+  explicit CpuRasterizer(std::string_view instructions, std::size_t batch = std::size_t{1} << 22U);
   ~CpuRasterizer() override;
 
   [[nodiscard]] RasterizerInfo info() const override;

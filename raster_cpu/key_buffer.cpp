@@ -17,11 +17,8 @@ void set_extent(Framebuffer& image, Extent extent) {
 void unpack_keys(std::span<const PixelKey> keys, std::size_t first, Framebuffer& out) {
   const auto depth = out.depth.pixels().subspan(first, keys.size());
   const auto id = out.id.pixels().subspan(first, keys.size());
-  // An empty key is all ones, and so are kNoDepth and kNoPrimitive.
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    depth[i] = static_cast<std::uint32_t>(keys[i] >> 32U);
-    id[i] = static_cast<PrimitiveId>(keys[i]);
-  }
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    unpack_key(keys[i], depth[i], id[i]);
 }
 
 }  // namespace rangezip

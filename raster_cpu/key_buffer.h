@@ -1,8 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "core/base/grid.h"
 #include "core/raster/framebuffer.h"
@@ -62,6 +62,13 @@ void merge_keys(std::span<PixelKey> onto, std::span<const PixelKey> from);
 
 /// Gives an image this extent; its pixels are left as they come.
 void set_extent(Framebuffer& image, Extent extent);
+
+/// Splits a key. Where it is empty, all bits of it are set, and so are those of kNoDepth and
+/// kNoPrimitive.
+inline void unpack_key(PixelKey key, std::uint32_t& depth, PrimitiveId& id) noexcept {
+  depth = static_cast<std::uint32_t>(key >> 32U);
+  id = static_cast<PrimitiveId>(key);
+}
 
 /// Splits keys into depth and ID, from pixel `first` on.
 void unpack_keys(std::span<const PixelKey> keys, std::size_t first, Framebuffer& out);

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 
+#include "core/base/grid.h"
 #include "core/raster/row_transform.h"
+#include "raster_cpu/fixed_point.h"
 #include "raster_cpu/point_bins.h"
 #include "raster_cpu/point_moments.h"
 

@@ -1,9 +1,9 @@
 #include "raster_cpu/moment_painter.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "core/base/parallel.h"
-#include "raster_cpu/band_layout.h"
 #include "raster_cpu/moment_cell.h"
 
 namespace rangezip {
@@ -65,9 +65,9 @@ void MomentPainter::add_plainly(const DrawPoints& points, const RowTransform& ro
 }
 
 void MomentPainter::add_binned(const DrawPoints& points, const RowTransform& rows) {
-  // As much memory as the sums take, at 8 bytes a point.
+  // At 8 bytes a point, as much memory as the sums take.
   const std::size_t capacity =
-      std::max(kMaxRun, target_.extent.count() * sizeof(PixelMoments) / sizeof(BinEntry));
+      std::max(memory_.batch, target_.extent.count() * sizeof(PixelMoments) / sizeof(BinEntry));
   const std::size_t parts = memory_.bins.size();
   for (std::size_t at = 0; at < points.positions.size();) {
     if (pending_ == capacity) draw_bins();
@@ -83,8 +83,7 @@ void MomentPainter::add_binned(const DrawPoints& points, const RowTransform& row
         memory_.bins[part].end_run();
       }
     });
-    for (const std::size_t n : rejected)
-      report_.dropped_points += n;
+    report_.dropped_points += std::reduce(rejected.begin(), rejected.end());
     pending_ += count;
     at += count;
   }

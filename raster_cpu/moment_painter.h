@@ -12,6 +12,7 @@ namespace rangezip {
 
 /// Memory for sums, kept from image to image.
 struct MomentMemory {
+  std::size_t batch = std::size_t{1} << 22U;  ///< points that are held, at least
   std::vector<std::uint32_t> counts;
   std::vector<SnappedPosition> snapped;
   std::vector<PointBins> bins;  ///< one a thread

@@ -4,7 +4,6 @@ namespace rangezip {
 
 void PointBins::reset(std::size_t bins) {
   blocks_used_ = 0;
-  size_ = 0;
   cursors_.resize(bins);
   begins_.resize(bins);
   runs_.resize(bins);
@@ -43,7 +42,6 @@ void PointBins::close(std::size_t bin, const BinEntry* end) {
   if (end == begins_[bin]) return;
   const std::span entries(begins_[bin], end);
   runs_[bin].push_back({.entries = entries, .first_id = first_id_, .point_size = point_size_});
-  size_ += entries.size();
 }
 
 }  // namespace rangezip

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -27,12 +28,13 @@ class PointBins {
   /// Forgets all entries.
   void reset(std::size_t bins);
 
-  /// Until end_run(), what is written are points of size `point_size`, number 0 of which is drawn
-  /// as `first_id`.
+  /// For points that are to be drawn: until end_run(), they are of size `point_size`, and number 0
+  /// is drawn as `first_id`. (Those that are to be summed have no numbers.)
   void begin_run(PrimitiveId first_id, int point_size);
+  /// Puts what was written since the last call into runs.
   void end_run();
 
-  /// Where each bin takes its next fragment. Who fills a block must call grow().
+  /// Where each bin takes its next entry. Who fills a block must call grow().
   [[nodiscard]] BinEntry** cursors() { return cursors_.data(); }
   [[nodiscard]] static bool is_block_full(const BinEntry* cursor) {
     return reinterpret_cast<std::uintptr_t>(cursor) % sizeof(Block) == 0;
@@ -41,8 +43,6 @@ class PointBins {
   BinEntry* grow(std::size_t bin, const BinEntry* end);
 
   [[nodiscard]] std::span<const Run> runs(std::size_t bin) const { return runs_[bin]; }
-  /// Entries in ended runs.
-  [[nodiscard]] std::size_t size() const { return size_; }
 
  private:
   struct alignas(4096) Block {
@@ -60,7 +60,6 @@ class PointBins {
   std::vector<std::vector<Run>> runs_;
   PrimitiveId first_id_ = 0;
   int point_size_ = 1;
-  std::size_t size_ = 0;
 };
 
 }  // namespace rangezip

@@ -68,16 +68,16 @@ bool are_close(const SnappedPosition& a, const SnappedPosition& b) {
 }  // namespace
 
 bool neighbours_fall_close(const RowTransform& rows, std::span<const Vec3f> positions) {
-  constexpr std::size_t kPairs = 256;
-  if (positions.size() < 2) return true;
+  if (positions.size() < 3) return true;
+  const std::size_t pairs = std::min<std::size_t>(256, positions.size() - 1);
   std::size_t close = 0;
-  for (std::size_t pair = 0; pair < kPairs; ++pair) {
-    const std::size_t at = (positions.size() - 2) * pair / (kPairs - 1);
+  for (std::size_t pair = 0; pair < pairs; ++pair) {
+    const std::size_t at = (positions.size() - 2) * pair / (pairs - 1);
     std::array<SnappedPosition, 2> snapped;
     snap_positions(rows, positions.subspan(at, 2), snapped);
     close += are_close(snapped[0], snapped[1]) ? 1 : 0;
   }
-  return close > kPairs / 2;
+  return close > pairs / 2;
 }
 
 std::size_t draw_points(const DrawPoints& points, const RowTransform& rows, std::size_t begin,

@@ -10,7 +10,7 @@
 namespace rangezip {
 
 /// Whether the item's points lie in an order in which most fall close to the one before: along a
-/// scan line, a curve. Judged by 256 pairs.
+/// scan line, a curve. Judged by up to 256 pairs.
 [[nodiscard]] bool neighbours_fall_close(const RowTransform& rows,
                                          std::span<const Vec3f> positions);
 

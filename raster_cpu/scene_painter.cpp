@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 #include "core/base/parallel.h"
 #include "raster_cpu/point_raster.h"
 #include "raster_cpu/triangle_raster.h"
+#include "raster_cpu/unpack.h"
 
 namespace rangezip {
 
@@ -42,8 +44,7 @@ std::size_t snap(const RowTransform& rows, std::span<const Vec3f> positions,
   return done.rejected;
 }
 
-}  // namespace
-
+/// The same by several threads.
 std::size_t snap_in_parallel(const RowTransform& rows, std::span<const Vec3f> positions,
                              std::span<SnappedPosition> snapped, const SimdKernels* kernels) {
   constexpr std::size_t kGrain = std::size_t{1} << 14;
@@ -53,19 +54,20 @@ std::size_t snap_in_parallel(const RowTransform& rows, std::span<const Vec3f> po
     const auto to = snapped.subspan(begin, end - begin);
     rejected[begin / kGrain] = snap(rows, from, to, kernels);
   });
-  std::size_t sum = 0;
-  for (const std::size_t count : rejected)
-    sum += count;
-  return sum;
+  return std::reduce(rejected.begin(), rejected.end());
 }
+
+}  // namespace
 
 ScenePainter::ScenePainter(const View& view, const DepthBand* depths, const SimdKernels* kernels,
                            PainterMemory& memory)
     : view_(view), depths_(depths), kernels_(kernels), memory_(memory) {}
 
 std::vector<ScenePainter::Step> ScenePainter::plan(std::span<const DrawItem> items) const {
-  // An image whose keys the second-level cache holds needs no bins.
+  // An image whose keys the second-level cache holds needs no bins, and few points are not worth
+  // them; but squares are drawn faster in tiles, where nothing is clipped.
   constexpr std::size_t kCachedPixels = std::size_t{1} << 16;
+  constexpr std::size_t kLeastPoints = 128;
   std::vector<Step> steps;
   for (const DrawItem& item : items) {
     Step& step = steps.emplace_back();
@@ -73,7 +75,10 @@ std::vector<ScenePainter::Step> ScenePainter::plan(std::span<const DrawItem> ite
     step.rows = std::visit(
         [&](const auto& i) { return make_row_transform(view_, i.world_from_item); }, item);
     const auto* points = std::get_if<DrawPoints>(&item);
-    if (points == nullptr || kernels_ == nullptr || points->point_size > kMaxBinnedSize) continue;
+    if (points == nullptr || kernels_ == nullptr || points->point_size > kMaxBinnedSize ||
+        points->positions.size() < kLeastPoints) {
+      continue;
+    }
     step.is_binned =
         points->point_size > 1 || (view_.extent().count() > kCachedPixels &&
                                    !neighbours_fall_close(step.rows, points->positions));
@@ -83,32 +88,37 @@ std::vector<ScenePainter::Step> ScenePainter::plan(std::span<const DrawItem> ite
 
 DrawReport ScenePainter::draw(std::span<const DrawItem> items, Framebuffer& out) {
   const std::vector<Step> steps = plan(items);
-  std::size_t unbinned = 0;
+  std::size_t layered = 0;
   int largest = 0;
   for (const Step& step : steps) {
     if (step.is_binned) {
       largest = std::max(largest, std::get<DrawPoints>(*step.item).point_size);
     } else {
-      unbinned += primitive_count(*step.item);
+      layered += primitive_count(*step.item);
     }
   }
-  if (largest > 0) memory_.binned.begin(view_.extent(), largest, depths_, *kernels_);
-  if (unbinned > 0 || largest == 0) clear_layers(layer_count(unbinned, view_.extent()));
+  if (layered > 0 || largest == 0) clear_layers(layer_count(layered, view_.extent()));
   for (const Step& step : steps) {
-    if (const auto* triangles = std::get_if<DrawTriangles>(step.item)) {
-      draw_triangles(*triangles, step.rows);
-    } else if (step.is_binned) {
-      bin_points(std::get<DrawPoints>(*step.item), step.rows);
-    } else {
-      draw_points(std::get<DrawPoints>(*step.item), step.rows);
-    }
+    if (!step.is_binned) draw_layered(step);
   }
-  if (largest > 0) {
-    memory_.binned.draw(merge_layers(), out);
-  } else {
+  if (largest == 0) {
     unpack_layers(out);
+    return report_;
   }
+  memory_.binned.begin(view_.extent(), largest, depths_, *kernels_);
+  for (const Step& step : steps) {
+    if (step.is_binned) bin_points(std::get<DrawPoints>(*step.item), step.rows);
+  }
+  memory_.binned.draw(merge_layers(), out);
   return report_;
+}
+
+void ScenePainter::draw_layered(const Step& step) {
+  if (const auto* triangles = std::get_if<DrawTriangles>(step.item)) {
+    draw_triangles(*triangles, step.rows);
+  } else {
+    draw_points(std::get<DrawPoints>(*step.item), step.rows);
+  }
 }
 
 void ScenePainter::clear_layers(std::size_t count) {
@@ -167,10 +177,7 @@ std::size_t ScenePainter::draw_parts(std::size_t count, const Draw& draw) {
       dropped[layer] = draw(count * layer / layers_, count * (layer + 1) / layers_, target);
     }
   });
-  std::size_t sum = 0;
-  for (const std::size_t n : dropped)
-    sum += n;
-  return sum;
+  return std::reduce(dropped.begin(), dropped.end());
 }
 
 void ScenePainter::draw_points(const DrawPoints& points, const RowTransform& rows) {
@@ -194,17 +201,21 @@ void ScenePainter::draw_triangles(const DrawTriangles& item, const RowTransform&
 void ScenePainter::bin_points(const DrawPoints& points, const RowTransform& rows) {
   BinnedPoints& binned = memory_.binned;
   for (std::size_t at = 0; at < points.positions.size();) {
-    if (binned.room() == 0) {
-      const std::span<const PixelKey> under = merge_layers();
-      memory_.layers.resize(std::max<std::size_t>(memory_.layers.size(), 1));
-      memory_.layers[0].resize(view_.extent().count() + kKeyPadding);
-      binned.draw(under, memory_.layers[0]);
-      layers_ = 1;
-    }
+    if (binned.room() == 0) flush_bins();
     const std::size_t count = std::min(binned.room(), points.positions.size() - at);
     report_.dropped_points += binned.add(points, rows, at, at + count);
     at += count;
   }
+}
+
+/// Draws what is in the bins into the first layer.
+void ScenePainter::flush_bins() {
+  const std::span<const PixelKey> under = merge_layers();
+  auto& layers = memory_.layers;
+  layers.resize(std::max<std::size_t>(layers.size(), 1));
+  layers[0].resize(view_.extent().count() + kKeyPadding);
+  memory_.binned.draw(under, layers[0]);
+  layers_ = 1;
 }
 
 }  // namespace rangezip

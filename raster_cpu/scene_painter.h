@@ -36,9 +36,11 @@ class ScenePainter {
   void clear_layers(std::size_t count);
   [[nodiscard]] std::span<const PixelKey> merge_layers();
   void unpack_layers(Framebuffer& out);
+  void draw_layered(const Step& step);
   void draw_points(const DrawPoints& points, const RowTransform& rows);
   void draw_triangles(const DrawTriangles& item, const RowTransform& rows);
   void bin_points(const DrawPoints& points, const RowTransform& rows);
+  void flush_bins();
   template <class Draw>
   std::size_t draw_parts(std::size_t count, const Draw& draw);
 
@@ -49,9 +51,5 @@ class ScenePainter {
   std::size_t layers_ = 0;  ///< that are in use
   DrawReport report_;
 };
-
-/// R2-R4 and R11 by several threads. @return number rejected by R3 or R4
-std::size_t snap_in_parallel(const RowTransform& rows, std::span<const Vec3f> positions,
-                             std::span<SnappedPosition> snapped, const SimdKernels* kernels);
 
 }  // namespace rangezip

@@ -9,14 +9,16 @@
 #endif
 
 #include <array>
+#include <cstring>
 #include <limits>
 
+#include "core/base/geometry.h"
 #include "raster_cpu/point_bins.h"
-#include "raster_cpu/simd_snap-inl.h"
+#include "raster_cpu/simd_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace rangezip::HWY_NAMESPACE {
-#if HWY_TARGET != HWY_SCALAR
+#if RANGEZIP_HAS_VECTORS
 namespace {
 
 /// Appends the entries (high << 32 | low) of the lanes in `which` to the bins `bin`.
@@ -24,14 +26,11 @@ HWY_INLINE void append_lanes(PointBins& bins, IntVec bin, IntVec high, IntVec lo
   const Ints d;
   // With many bins the hardware does not fetch what is written next.
   constexpr std::ptrdiff_t kAhead = 16;
+  alignas(64) std::array<std::int32_t, 2 * kLanes> halves;
   alignas(64) std::array<BinEntry, kLanes> entries;
   alignas(64) std::array<std::int32_t, kLanes> numbers;
-  auto* const halves = reinterpret_cast<std::int32_t*>(entries.data());
-  if constexpr (std::endian::native == std::endian::little) {
-    hn::StoreInterleaved2(low, high, d, halves);
-  } else {
-    hn::StoreInterleaved2(high, low, d, halves);
-  }
+  hn::StoreInterleaved2(low, high, d, halves.data());
+  std::memcpy(entries.data(), halves.data(), sizeof(entries));
   hn::Store(bin, d, numbers.data());
   BinEntry** const cursors = bins.cursors();
   for_each_bit(bits_of(which), [&](std::size_t lane) {

@@ -12,6 +12,7 @@ void add_all(std::size_t target, SimdKernels& kernels) {
   add_point_kernels(target, kernels);
   add_moment_kernels(target, kernels);
   add_triangle_kernels(target, kernels);
+  add_box_kernels(target, kernels);
 }
 
 std::vector<SimdKernels> find_kernels() {
@@ -38,15 +39,6 @@ std::vector<SimdKernels> find_kernels() {
 const std::vector<SimdKernels>& simd_kernels() {
   static const std::vector<SimdKernels> kernels = find_kernels();
   return kernels;
-}
-
-void unpack_into_image(std::span<const PixelKey> keys, std::size_t first,
-                       const SimdKernels* kernels, Framebuffer& out) {
-  constexpr std::size_t kCachedPixels = std::size_t{1} << 21;
-  if (kernels == nullptr || out.depth.extent().count() < kCachedPixels)
-    return unpack_keys(keys, first, out);
-  kernels->unpack_past_cache(keys, out.depth.pixels().data() + first,
-                             out.id.pixels().data() + first);
 }
 
 }  // namespace rangezip

@@ -9,6 +9,7 @@
 #include "core/raster/draw_item.h"
 #include "core/raster/row_transform.h"
 #include "raster_cpu/band_layout.h"
+#include "raster_cpu/fragment.h"
 #include "raster_cpu/key_buffer.h"
 #include "raster_cpu/point_bins.h"
 #include "raster_cpu/point_moments.h"
@@ -70,15 +71,11 @@ struct SimdKernels {
 /// The sets of instructions that this machine has, the widest first. Found out once.
 [[nodiscard]] const std::vector<SimdKernels>& simd_kernels();
 
-/// unpack_keys(), past the cache where the image is too large for it.
-/// @param kernels null: scalar code
-void unpack_into_image(std::span<const PixelKey> keys, std::size_t first,
-                       const SimdKernels* kernels, Framebuffer& out);
-
 /// Each adds its kernels for one set of instructions, by Highway's number of it; nothing if it was
 /// not compiled. For simd_kernels().
 void add_point_kernels(std::size_t target, SimdKernels& kernels);
 void add_moment_kernels(std::size_t target, SimdKernels& kernels);
 void add_triangle_kernels(std::size_t target, SimdKernels& kernels);
+void add_box_kernels(std::size_t target, SimdKernels& kernels);
 
 }  // namespace rangezip

@@ -17,7 +17,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace rangezip::HWY_NAMESPACE {
-#if HWY_TARGET != HWY_SCALAR
+#if RANGEZIP_HAS_VECTORS
 namespace {
 
 /// Coordinates relative to cells.
@@ -30,15 +30,9 @@ HWY_INLINE IntVec cell_offset(IntVec v) {
   return hn::And(hn::Sub(v, hn::Set(d, kHalfPixel)), hn::Set(d, kSubpixels - 1));
 }
 
-/// 0 <= v < end.
-HWY_INLINE Mask is_below(IntVec v, std::int32_t end) {
-  const Ints d;
-  return hn::And(hn::Gt(v, hn::Set(d, -1)), hn::Lt(v, hn::Set(d, end)));
-}
-
 template <bool kIsCentral>
-std::size_t bin_all(const RowTransform& rows, std::span<const Vec3f> positions,
-                    std::span<const std::int8_t> votes, Extent extent, PointBins& bins) {
+std::size_t bin_cells(const RowTransform& rows, std::span<const Vec3f> positions,
+                      std::span<const std::int8_t> votes, Extent extent, PointBins& bins) {
   const Ints d;
   return for_each_vector(positions, [&](const Vec3f* at, std::size_t number) {
     const Lanes p = load(at);
@@ -47,7 +41,7 @@ std::size_t bin_all(const RowTransform& rows, std::span<const Vec3f> positions,
     Mask summed = is_inside(rows, p, s.valid);
     summed =
         hn::And(summed, hn::And(is_below(x, extent.width + 1), is_below(y, extent.height + 1)));
-    summed = hn::And(summed, is_below(s.z, static_cast<std::int32_t>(kMaxDepth) + 1));
+    summed = hn::And(summed, is_in_depth_range(s.z));
     const IntVec row = hn::And(y, hn::Set(d, kCellRows - 1));
     const IntVec cell = hn::Or(hn::ShiftLeft<kCellRowBits>(x), row);
     const IntVec high = hn::Or(hn::ShiftLeft<kCellBits>(cell),
@@ -66,8 +60,8 @@ std::size_t bin_all(const RowTransform& rows, std::span<const Vec3f> positions,
 
 std::size_t bin_moments(const RowTransform& rows, std::span<const Vec3f> positions,
                         std::span<const std::int8_t> votes, Extent extent, PointBins& bins) {
-  return rows.is_central ? bin_all<true>(rows, positions, votes, extent, bins)
-                         : bin_all<false>(rows, positions, votes, extent, bins);
+  return rows.is_central ? bin_cells<true>(rows, positions, votes, extent, bins)
+                         : bin_cells<false>(rows, positions, votes, extent, bins);
 }
 
 /// The four pixels around a cell, or as many as a vector has lanes: lower left, lower right, upper
@@ -235,7 +229,7 @@ void add_moments(std::span<const BinEntry> entries, std::size_t bin, PixelRange 
 #endif
 
 void add_moment_kernels([[maybe_unused]] SimdKernels& kernels) {
-#if HWY_TARGET != HWY_SCALAR
+#if RANGEZIP_HAS_VECTORS
   kernels.bin_moments = &bin_moments;
   kernels.add_moments = &add_moments;
 #endif

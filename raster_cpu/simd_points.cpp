@@ -2,6 +2,8 @@
 #include "raster_cpu/simd_kernels.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 
 #include "raster_cpu/simd_targets.h"
 
@@ -16,7 +18,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace rangezip::HWY_NAMESPACE {
-#if HWY_TARGET != HWY_SCALAR
+#if RANGEZIP_HAS_VECTORS
 namespace {
 
 template <bool kIsCentral>
@@ -45,9 +47,7 @@ template <bool kIsCentral, bool kIsBanded>
 KernelReport draw_all(const RowTransform& rows, std::span<const Vec3f> positions,
                       PrimitiveId first_id, const DrawTarget& target) {
   const Ints d;
-  const IntVec width = hn::Set(d, target.extent.width), height = hn::Set(d, target.extent.height);
-  const IntVec below = hn::Set(d, -1);
-  const IntVec depths_end = hn::Set(d, static_cast<std::int32_t>(kMaxDepth + 1));
+  const IntVec width = hn::Set(d, target.extent.width);
   PixelKey* const keys = target.keys.data();
   struct {
     alignas(64) std::array<std::int32_t, kLanes> pixel, depth;
@@ -60,9 +60,9 @@ KernelReport draw_all(const RowTransform& rows, std::span<const Vec3f> positions
     report.rejected += kLanes - hn::CountTrue(d, s.valid);
     const IntVec x = hn::ShiftRight<kSubpixelBits>(s.x), y = hn::ShiftRight<kSubpixelBits>(s.y);
     Mask drawn = is_inside(rows, p, s.valid);
-    drawn = hn::And(drawn, hn::And(hn::Gt(x, below), hn::Lt(x, width)));
-    drawn = hn::And(drawn, hn::And(hn::Gt(y, below), hn::Lt(y, height)));
-    drawn = hn::And(drawn, hn::And(hn::Gt(s.z, below), hn::Lt(s.z, depths_end)));
+    drawn = hn::And(drawn,
+                    hn::And(is_below(x, target.extent.width), is_below(y, target.extent.height)));
+    drawn = hn::And(drawn, is_in_depth_range(s.z));
     const IntVec pixel = hn::IfThenElseZero(drawn, hn::Add(hn::Mul(y, width), x));
     if constexpr (kIsBanded) {
       const IntVec lower = hn::GatherIndex(d, target.band->lower.pixels().data(), pixel);
@@ -112,15 +112,13 @@ class PointBinner {
     const IntVec to_corner = hn::Set(d, kHalfPixel * (size_ - 1));
     const IntVec x = hn::ShiftRight<kSubpixelBits>(hn::Sub(s.x, to_corner));
     const IntVec y = hn::ShiftRight<kSubpixelBits>(hn::Sub(s.y, to_corner));
-    const IntVec below = hn::Set(d, -1), beyond = hn::Set(d, -size_);
+    const IntVec beyond = hn::Set(d, -size_);
     const IntVec width = hn::Set(d, layout_.extent.width);
     const IntVec height = hn::Set(d, layout_.extent.height);
     Mask drawn = is_inside(rows_, p, s.valid);
     drawn = hn::And(drawn, hn::And(hn::Gt(x, beyond), hn::Lt(x, width)));
     drawn = hn::And(drawn, hn::And(hn::Gt(y, beyond), hn::Lt(y, height)));
-    drawn =
-        hn::And(drawn, hn::And(hn::Gt(s.z, below),
-                               hn::Lt(s.z, hn::Set(d, static_cast<std::int32_t>(kMaxDepth) + 1))));
+    drawn = hn::And(drawn, is_in_depth_range(s.z));
     const IntVec lower = band_of(kIsSingle ? y : hn::Max(y, hn::Zero(d)));
     append(lower, x, y, s.z, number, drawn);
     if constexpr (!kIsSingle) {
@@ -146,8 +144,8 @@ class PointBinner {
     // The two halves of a Fragment.
     constexpr int kDepthInLow = 32 - kRunBits;
     const auto low = hn::Or(hn::ShiftLeft<kRunBits>(z), id);
-    const auto high = hn::Or(hn::ShiftLeft<kFragmentDepthBits - kDepthInLow>(pixel),
-                             hn::ShiftRight<kDepthInLow>(z));
+    const auto high =
+        hn::Or(hn::ShiftLeft<kDepthBits - kDepthInLow>(pixel), hn::ShiftRight<kDepthInLow>(z));
     append_lanes(bins_, band, high, low, which);
   }
 
@@ -159,8 +157,8 @@ class PointBinner {
 };
 
 template <bool kIsCentral, bool kIsSingle>
-std::size_t bin_all(const RowTransform& rows, std::span<const Vec3f> positions, int size,
-                    const BandLayout& layout, PointBins& bins) {
+std::size_t bin_all_points(const RowTransform& rows, std::span<const Vec3f> positions, int size,
+                           const BandLayout& layout, PointBins& bins) {
   PointBinner<kIsCentral, kIsSingle> binner(rows, size, layout, bins);
   return for_each_vector(positions, [&](const Vec3f* at, std::size_t number) {
     return binner.add(at, static_cast<std::uint32_t>(number));
@@ -170,11 +168,11 @@ std::size_t bin_all(const RowTransform& rows, std::span<const Vec3f> positions, 
 std::size_t bin_points(const RowTransform& rows, std::span<const Vec3f> positions, int size,
                        const BandLayout& layout, PointBins& bins) {
   if (size == 1) {
-    return rows.is_central ? bin_all<true, true>(rows, positions, 1, layout, bins)
-                           : bin_all<false, true>(rows, positions, 1, layout, bins);
+    return rows.is_central ? bin_all_points<true, true>(rows, positions, 1, layout, bins)
+                           : bin_all_points<false, true>(rows, positions, 1, layout, bins);
   }
-  return rows.is_central ? bin_all<true, false>(rows, positions, size, layout, bins)
-                         : bin_all<false, false>(rows, positions, size, layout, bins);
+  return rows.is_central ? bin_all_points<true, false>(rows, positions, size, layout, bins)
+                         : bin_all_points<false, false>(rows, positions, size, layout, bins);
 }
 
 /// The key that a fragment gives its pixels.
@@ -250,28 +248,24 @@ void draw_fragments(const PointBins::Run& run, Tile& tile) {
 
 void unpack_past_cache(std::span<const PixelKey> keys, std::uint32_t* depth, PrimitiveId* id) {
   const hn::CappedTag<std::uint32_t, 4> d;
+  const hn::CappedTag<PixelKey, 2> dk;
   constexpr std::size_t kKeys = hn::MaxLanes(d);
   const auto is_aligned = [](const std::uint32_t* at) {
     return reinterpret_cast<std::uintptr_t>(at) % (kKeys * sizeof(*at)) == 0;
   };
   std::size_t i = 0;
-  const auto unpack_one = [&] {
-    depth[i] = static_cast<std::uint32_t>(keys[i] >> 32U);
-    id[i] = static_cast<PrimitiveId>(keys[i]);
+  while (i < keys.size() && !is_aligned(depth + i)) {
+    unpack_key(keys[i], depth[i], id[i]);
     ++i;
-  };
-  while (i < keys.size() && !is_aligned(depth + i))
-    unpack_one();
-  for (; i + kKeys <= keys.size() && is_aligned(id + i); i += kKeys) {
-    const auto* const halves = reinterpret_cast<const std::uint32_t*>(&keys[i]);
-    hn::Vec<decltype(d)> low, high;
-    hn::LoadInterleaved2(d, halves, low, high);
-    if constexpr (std::endian::native == std::endian::big) std::swap(low, high);
-    hn::Stream(high, d, depth + i);
-    hn::Stream(low, d, id + i);
   }
-  while (i < keys.size())
-    unpack_one();
+  for (; i + kKeys <= keys.size() && is_aligned(id + i); i += kKeys) {
+    const auto first = hn::BitCast(d, hn::LoadU(dk, &keys[i]));
+    const auto second = hn::BitCast(d, hn::LoadU(dk, &keys[i + 2]));
+    hn::Stream(hn::ConcatOdd(d, second, first), d, depth + i);
+    hn::Stream(hn::ConcatEven(d, second, first), d, id + i);
+  }
+  for (; i < keys.size(); ++i)
+    unpack_key(keys[i], depth[i], id[i]);
   hwy::FlushStream();
 }
 
@@ -279,7 +273,7 @@ void unpack_past_cache(std::span<const PixelKey> keys, std::uint32_t* depth, Pri
 #endif
 
 void add_point_kernels([[maybe_unused]] SimdKernels& kernels) {
-#if HWY_TARGET != HWY_SCALAR
+#if RANGEZIP_HAS_VECTORS
   kernels.snap = &snap;
   kernels.draw_single_pixels = &draw_single_pixels;
   kernels.bin_points = &bin_points;

@@ -8,34 +8,15 @@
 #define RANGEZIP_SIMD_SNAP_INL_H
 #endif
 
-#include <hwy/cache_control.h>
-#include <hwy/highway.h>
-
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cstring>
-#include <span>
-
+#include "core/raster/framebuffer.h"
 #include "core/raster/row_transform.h"
 #include "raster_cpu/fixed_point.h"
+#include "raster_cpu/simd_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace rangezip::HWY_NAMESPACE {
-#if HWY_TARGET != HWY_SCALAR  // its vectors have one lane: the scalar code is better
+#if RANGEZIP_HAS_VECTORS
 namespace {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-/// At most 256 bits: what a wider store leaves for scalar loads arrives late (AMD Zen 4: points in
-/// random order at two thirds of the rate).
-using Floats = hn::CappedTag<float, 8>;
-using Ints = hn::RebindToSigned<Floats>;
-using FloatVec = hn::Vec<Floats>;
-using IntVec = hn::Vec<Ints>;
-using Mask = hn::Mask<Ints>;
-
-constexpr std::size_t kLanes = hn::MaxLanes(Floats());
 
 /// Positions of a vector of points, one coordinate a vector. Like all structures of vectors here,
 /// only made whole: on some targets a vector's default constructor can be called by functions
@@ -140,6 +121,11 @@ HWY_INLINE Mask is_inside(const RowTransform& rows, const Lanes& p, Mask mask) {
   return mask;
 }
 
+/// Depths that are drawn.
+HWY_INLINE Mask is_in_depth_range(IntVec z) {
+  return is_below(z, static_cast<std::int32_t>(kMaxDepth) + 1);
+}
+
 template <bool kIsCentral>
 HWY_INLINE SnappedLanes snap_lanes(const RowTransform& rows, const Lanes& p) {
   if constexpr (kIsCentral) {
@@ -147,39 +133,6 @@ HWY_INLINE SnappedLanes snap_lanes(const RowTransform& rows, const Lanes& p) {
   } else {
     return snap_parallel(rows, p);
   }
-}
-
-/// Fetches what comes some vectors after items[at], kLanes of which are read at once: the hardware
-/// alone is late (by a fifth of the rate, in virtual machines above all).
-template <class Item>
-HWY_INLINE void prefetch_after(std::span<const Item> items, std::size_t at) {
-  static_assert(sizeof(Item) == 12);
-  constexpr std::size_t kAhead = 256;
-  constexpr std::size_t kLine = 64 / sizeof(Item);
-  const std::size_t last = items.size() - 1;
-  hwy::Prefetch(&items[std::min(at + kAhead, last)]);
-  if constexpr (kLanes > kLine) hwy::Prefetch(&items[std::min(at + kAhead + kLine, last)]);
-}
-
-/// One bit a lane. Highway writes bytes: the one that counts is read alone, since a wider read
-/// would wait for it.
-HWY_INLINE unsigned bits_of(Mask mask) {
-  static_assert(kLanes <= 8);
-  std::array<std::uint8_t, 8> bytes;
-  hn::StoreMaskBits(Ints(), mask, bytes.data());
-  return bytes[0];
-}
-
-/// Calls visit(lane) for every set bit, the lowest first. All set is the usual case.
-template <class Visit>
-HWY_INLINE void for_each_bit(unsigned bits, const Visit& visit) {
-  if (bits == (1U << kLanes) - 1) {
-    for (std::size_t lane = 0; lane < kLanes; ++lane)
-      visit(lane);
-    return;
-  }
-  for (; bits != 0; bits &= bits - 1)
-    visit(static_cast<std::size_t>(std::countr_zero(bits)));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// R6, R7, R9 and R12 by vectors of triangles, and of the pixels of one triangle.
+// R6, R7, R9 and R12 for tiny triangles, by vectors of triangles.
 #include "raster_cpu/simd_kernels.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace rangezip::HWY_NAMESPACE {
-#if HWY_TARGET != HWY_SCALAR
+#if RANGEZIP_HAS_VECTORS
 namespace {
 
 /// Corners of a vector of triangles.
@@ -143,8 +143,8 @@ class TinyTriangles {
     swap_where(turned, p.x[1], p.x[2]);
     swap_where(turned, p.y[1], p.y[2]);
     swap_where(turned, p.z[1], p.z[2]);
-    draw_boxes(p, hn::Abs(area), columns, rows, drawn,
-               item_.first_id + static_cast<PrimitiveId>(at));
+    const PrimitiveId first_id = item_.first_id + static_cast<PrimitiveId>(at);
+    draw_boxes(set_up(p, hn::Abs(area), columns, rows, first_id), columns, rows, drawn);
     return left;
   }
 
@@ -162,55 +162,76 @@ class TinyTriangles {
     w = hn::IfThenElse(mask, old, w);
   }
 
-  /// All lanes walk through their boxes in step, as far as the largest.
-  HWY_INLINE void draw_boxes(const Corners& p, IntVec area, const RangeLanes& columns,
-                             const RangeLanes& rows, Mask drawn, PrimitiveId first_id) {
+  /// What the lanes' triangles give any of their pixels.
+  struct Setup {
+    EdgeLanes edge_a, edge_b, edge_c;
+    DepthLanes depth_low, depth_high;
+    PrimitiveId first_id;
+  };
+
+  static HWY_INLINE Setup set_up(const Corners& p, IntVec area, const RangeLanes& columns,
+                                 const RangeLanes& rows, PrimitiveId first_id) {
     const Ints d;
-    const IntVec half = hn::Set(d, kHalfPixel), zero = hn::Zero(d), one = hn::Set(d, 1);
+    const hn::Half<Ints> half_d;
+    const IntVec half = hn::Set(d, kHalfPixel);
     const IntVec x = hn::Add(hn::ShiftLeft<kSubpixelBits>(columns.first), half);
     const IntVec y = hn::Add(hn::ShiftLeft<kSubpixelBits>(rows.first), half);
-    const EdgeLanes edge_a = edge_at(p.x[1], p.y[1], p.x[2], p.y[2], x, y);
-    const EdgeLanes edge_b = edge_at(p.x[2], p.y[2], p.x[0], p.y[0], x, y);
-    const EdgeLanes edge_c = edge_at(p.x[0], p.y[0], p.x[1], p.y[1], x, y);
-    const hn::Half<Ints> half_d;
-    const DepthLanes low(hn::LowerHalf(half_d, p.z[0]), hn::LowerHalf(half_d, p.z[1]),
-                         hn::LowerHalf(half_d, p.z[2]), hn::LowerHalf(half_d, area));
-    const DepthLanes high(hn::UpperHalf(half_d, p.z[0]), hn::UpperHalf(half_d, p.z[1]),
-                          hn::UpperHalf(half_d, p.z[2]), hn::UpperHalf(half_d, area));
-    IntVec row_a = edge_a.value, row_b = edge_b.value, row_c = edge_c.value;
-    IntVec rows_left = hn::IfThenElseZero(drawn, hn::Add(hn::Sub(rows.last, rows.first), one));
+    return {edge_at(p.x[1], p.y[1], p.x[2], p.y[2], x, y),
+            edge_at(p.x[2], p.y[2], p.x[0], p.y[0], x, y),
+            edge_at(p.x[0], p.y[0], p.x[1], p.y[1], x, y),
+            DepthLanes(hn::LowerHalf(half_d, p.z[0]), hn::LowerHalf(half_d, p.z[1]),
+                       hn::LowerHalf(half_d, p.z[2]), hn::LowerHalf(half_d, area)),
+            DepthLanes(hn::UpperHalf(half_d, p.z[0]), hn::UpperHalf(half_d, p.z[1]),
+                       hn::UpperHalf(half_d, p.z[2]), hn::UpperHalf(half_d, area)),
+            first_id};
+  }
+
+  /// All lanes walk through the rows of their boxes in step, as far as the highest.
+  HWY_INLINE void draw_boxes(const Setup& t, const RangeLanes& columns, const RangeLanes& rows,
+                             Mask drawn) {
+    const Ints d;
+    const IntVec zero = hn::Zero(d), one = hn::Set(d, 1);
+    const IntVec image_width = hn::Set(d, target_.extent.width);
     const IntVec width = hn::Add(hn::Sub(columns.last, columns.first), one);
-    IntVec row_pixel =
-        hn::Add(hn::Mul(rows.first, hn::Set(d, target_.extent.width)), columns.first);
+    IntVec left = hn::IfThenElseZero(drawn, hn::Add(hn::Sub(rows.last, rows.first), one));
+    IntVec a = t.edge_a.value, b = t.edge_b.value, c = t.edge_c.value;
+    IntVec pixel = hn::Add(hn::Mul(rows.first, image_width), columns.first);
     for (;;) {
-      const Mask in_rows = hn::Gt(rows_left, zero);
+      const Mask in_rows = hn::Gt(left, zero);
       if (hn::AllFalse(d, in_rows)) return;
-      IntVec columns_left = hn::IfThenElseZero(in_rows, width);
-      IntVec a = row_a, b = row_b, c = row_c, pixel = row_pixel;
-      for (;;) {
-        const Mask in_columns = hn::Gt(columns_left, zero);
-        if (hn::AllFalse(d, in_columns)) break;
-        const IntVec margins =
-            hn::Or(hn::Or(hn::Sub(a, edge_a.least_inside), hn::Sub(b, edge_b.least_inside)),
-                   hn::Sub(c, edge_c.least_inside));
-        const unsigned inside = bits_of(hn::AndNot(hn::Lt(margins, zero), in_columns));
-        if (inside != 0) {
-          const IntVec depth =
-              hn::Combine(d, high.at(hn::UpperHalf(half_d, a), hn::UpperHalf(half_d, b)),
-                          low.at(hn::LowerHalf(half_d, a), hn::LowerHalf(half_d, b)));
-          lower_keys(inside, pixel, depth, first_id);
-        }
-        a = hn::Add(a, edge_a.step_x);
-        b = hn::Add(b, edge_b.step_x);
-        c = hn::Add(c, edge_c.step_x);
-        pixel = hn::Add(pixel, one);
-        columns_left = hn::Sub(columns_left, one);
+      draw_row(t, a, b, c, pixel, hn::IfThenElseZero(in_rows, width));
+      a = hn::Add(a, t.edge_a.step_y);
+      b = hn::Add(b, t.edge_b.step_y);
+      c = hn::Add(c, t.edge_c.step_y);
+      pixel = hn::Add(pixel, image_width);
+      left = hn::Sub(left, one);
+    }
+  }
+
+  /// The same along a row: `left` pixels from `pixel` on, where the edges are a, b and c.
+  HWY_INLINE void draw_row(const Setup& t, IntVec a, IntVec b, IntVec c, IntVec pixel,
+                           IntVec left) {
+    const Ints d;
+    const hn::Half<Ints> half_d;
+    const IntVec zero = hn::Zero(d), one = hn::Set(d, 1);
+    for (;;) {
+      const Mask in_columns = hn::Gt(left, zero);
+      if (hn::AllFalse(d, in_columns)) return;
+      const IntVec margins =
+          hn::Or(hn::Or(hn::Sub(a, t.edge_a.least_inside), hn::Sub(b, t.edge_b.least_inside)),
+                 hn::Sub(c, t.edge_c.least_inside));
+      const unsigned inside = bits_of(hn::AndNot(hn::Lt(margins, zero), in_columns));
+      if (inside != 0) {
+        const IntVec depth =
+            hn::Combine(d, t.depth_high.at(hn::UpperHalf(half_d, a), hn::UpperHalf(half_d, b)),
+                        t.depth_low.at(hn::LowerHalf(half_d, a), hn::LowerHalf(half_d, b)));
+        lower_keys(inside, pixel, depth, t.first_id);
       }
-      row_a = hn::Add(row_a, edge_a.step_y);
-      row_b = hn::Add(row_b, edge_b.step_y);
-      row_c = hn::Add(row_c, edge_c.step_y);
-      row_pixel = hn::Add(row_pixel, hn::Set(d, target_.extent.width));
-      rows_left = hn::Sub(rows_left, one);
+      a = hn::Add(a, t.edge_a.step_x);
+      b = hn::Add(b, t.edge_b.step_x);
+      c = hn::Add(c, t.edge_c.step_x);
+      pixel = hn::Add(pixel, one);
+      left = hn::Sub(left, one);
     }
   }
 
@@ -230,6 +251,9 @@ class TinyTriangles {
 
   /// Pixels: larger boxes leave too many lanes idle.
   static constexpr int kTinyBox = 6;
+  static_assert(2 * kTinyBox * kTinyBox < 1 << (31 - 2 * kSubpixelBits), "edges fit 32 bits");
+  static_assert(6.0 * kTinyBox * kSubpixels * kTinyBox * kSubpixels * (kMaxDepth + 1.0) < 0x1p52,
+                "fits_double()");
 
   const DrawTriangles& item_;
   std::span<const SnappedPosition> snapped_;
@@ -252,106 +276,12 @@ std::size_t draw_tiny_triangles(const DrawTriangles& item, std::span<const Snapp
   return at - begin;
 }
 
-/// Doubles for the pixels of a row, keys beside them.
-using Doubles = hn::ScalableTag<double>;
-using Longs = hn::Rebind<std::int64_t, Doubles>;
-using Keys = hn::Rebind<PixelKey, Doubles>;
-using DoubleVec = hn::Vec<Doubles>;
-
-/// A linear function over the pixels of a triangle's box, by vectors of pixels along a row. All its
-/// values are integers, or halves of them, that doubles hold.
-class PixelFunction {
- public:
-  PixelFunction(double at_first, double step_x, double step_y)
-      : row_(at_first),
-        step_y_(step_y),
-        across_(hn::Mul(hn::Iota(d_, 0.0), hn::Set(d_, step_x))),
-        step_(hn::Set(d_, step_x * static_cast<double>(hn::Lanes(d_)))),
-        now_(across_) {}
-
-  HWY_INLINE void to_row_start() { now_ = hn::Add(hn::Set(d_, row_), across_); }
-  HWY_INLINE void to_next_pixels() { now_ = hn::Add(now_, step_); }
-  HWY_INLINE void to_next_row() { row_ += step_y_; }
-  [[nodiscard]] HWY_INLINE DoubleVec now() const { return now_; }
-
- private:
-  Doubles d_;
-  double row_;
-  double step_y_;
-  DoubleVec across_;
-  DoubleVec step_;
-  DoubleVec now_;
-};
-
-/// Tests all pixels of a triangle's box, a vector along a row at a time (R6, R7, R9). Reads
-/// past the box and writes there what it read.
-void fill_box(const TriangleSetup& t, PrimitiveId id, const DrawTarget& target) {
-  const Doubles d;
-  const Longs dl;
-  const Keys dk;
-  const auto edges = edges_of<std::int64_t>(t);
-  const DepthPlane plane(t);
-  const std::int32_t x0 = pixel_center(t.columns.first), y0 = pixel_center(t.rows.first);
-  // The first pixel's value and the steps to its neighbours.
-  const auto edge_function = [&](std::size_t i) {
-    const auto least = static_cast<double>(edges[i].least_inside());
-    return PixelFunction(static_cast<double>(edges[i].at(x0, y0)) - least,
-                         static_cast<double>(edges[i].minus_dy * kSubpixels),
-                         static_cast<double>(edges[i].dx * kSubpixels));
-  };
-  const auto numerator = [&](double e_a, double e_b) {
-    return e_a * plane.z_a_c + e_b * plane.z_b_c;
-  };
-  PixelFunction margin_a = edge_function(0), margin_b = edge_function(1),
-                margin_c = edge_function(2);
-  PixelFunction shifted(numerator(static_cast<double>(edges[0].at(x0, y0)),
-                                  static_cast<double>(edges[1].at(x0, y0))) +
-                            plane.addend,
-                        numerator(static_cast<double>(edges[0].minus_dy * kSubpixels),
-                                  static_cast<double>(edges[1].minus_dy * kSubpixels)),
-                        numerator(static_cast<double>(edges[0].dx * kSubpixels),
-                                  static_cast<double>(edges[1].dx * kSubpixels)));
-  const DoubleVec per_area = hn::Set(d, plane.per_area);
-  const DoubleVec to_low_bits = hn::Set(d, plane.depth_in_low_bits);
-  const auto ids = hn::Set(dk, PixelKey{id});
-  const auto columns = static_cast<std::size_t>(t.columns.count());
-  for (int y = t.rows.first; y <= t.rows.last; ++y) {
-    margin_a.to_row_start();
-    margin_b.to_row_start();
-    margin_c.to_row_start();
-    shifted.to_row_start();
-    const std::size_t row = target.extent.index({t.columns.first, y});
-    for (std::size_t x = 0; x < columns; x += hn::Lanes(d)) {
-      const auto signs =
-          hn::BitCast(dl, hn::Or(hn::Or(margin_a.now(), margin_b.now()), margin_c.now()));
-      const auto inside = hn::AndNot(hn::Lt(signs, hn::Zero(dl)), hn::FirstN(dl, columns - x));
-      if (!hn::AllFalse(dl, inside)) {
-        const auto sum = hn::Add(hn::Mul(shifted.now(), per_area), to_low_bits);
-        const auto depth = hn::ShiftLeft<32>(hn::BitCast(dk, sum));
-        PixelKey* const at = target.keys.data() + row + x;
-        const auto now = hn::LoadU(dk, at);
-        const auto lowered = hn::Min(now, hn::Or(depth, ids));
-        hn::StoreU(hn::IfThenElse(hn::RebindMask(dk, inside), lowered, now), dk, at);
-      }
-      margin_a.to_next_pixels();
-      margin_b.to_next_pixels();
-      margin_c.to_next_pixels();
-      shifted.to_next_pixels();
-    }
-    margin_a.to_next_row();
-    margin_b.to_next_row();
-    margin_c.to_next_row();
-    shifted.to_next_row();
-  }
-}
-
 }  // namespace
 #endif
 
 void add_triangle_kernels([[maybe_unused]] SimdKernels& kernels) {
-#if HWY_TARGET != HWY_SCALAR
+#if RANGEZIP_HAS_VECTORS
   kernels.draw_tiny_triangles = &draw_tiny_triangles;
-  kernels.fill_box = &fill_box;
 #endif
 }
 

@@ -215,8 +215,9 @@ std::size_t draw_triangles(const DrawTriangles& item, const RowTransform& rows,
   constexpr std::size_t kBlock = 1024;
   if (kernels != nullptr && snapped.size() < kMostGathered) {
     std::vector<std::size_t> left;
-    while (begin + kBlock < end) {
-      begin += kernels->draw_tiny_triangles(item, snapped, begin, begin + kBlock, target, left);
+    for (std::size_t done = 1; done != 0; begin += done) {
+      const std::size_t block = std::min(kBlock, end - begin);
+      done = kernels->draw_tiny_triangles(item, snapped, begin, begin + block, target, left);
       for (const std::size_t triangle : left)
         painter.draw(triangle);
     }

@@ -48,10 +48,13 @@ template <class Int>
 }
 
 /// R7 in double. The depth at a point with the values e_a and e_b of the edges opposite to a and b
-/// is z_c + floor(n / area) with n = e_a (z_a - z_c) + e_b (z_b - z_c), and that floor is the
-/// integer nearest to (n + (1 - area) / 2) / area, from which it is at least 1 / (2 area) less than
-/// a half away. For triangles that fits_double(), |n| < 2^52 is exact, and a product with 1 / area
-/// errs by less than that.
+/// is z_c + floor(n / area) with n = e_a (z_a - z_c) + e_b (z_b - z_c). That floor is the integer
+/// nearest to (n + (1 - area) / 2) / area, which is at least 1 / (2 area) away from a half.
+///
+/// For a triangle that fits_double(), with d its range of depths and w x h its box: edges are at
+/// most 2 w h anywhere in the box, so |n| <= 4 w h d, and with half the area it stays below 2^52:
+/// halves are exact. Where the triangle covers, n is between -area d and area d, and area <= w h;
+/// so the product with the rounded 1 / area errs by at most (d + 1/2) 2^-52 < 1 / (4 area).
 struct DepthPlane {
   double z_a_c = 0.0;
   double z_b_c = 0.0;

@@ -1,6 +1,7 @@
 #include "core/raster/rasterizer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -54,7 +55,7 @@ void check_points(const std::string& where, const DrawPoints& points, const Rast
 }
 
 std::uint32_t largest_corner(std::span<const Triangle> triangles) {
-  Triangle most{};  // one maximum per corner: they do not wait for each other
+  std::array<std::uint32_t, 3> most{};  // one a corner: they do not wait for each other
   for (const Triangle& t : triangles) {
     for (std::size_t corner = 0; corner < 3; ++corner)
       most[corner] = std::max(most[corner], t[corner]);

@@ -24,6 +24,10 @@ inline std::vector<Backend> all_backends() {
   for (const std::string& name : instructions) {
     backends.push_back({"cpu " + name, [name] { return std::make_unique<CpuRasterizer>(name); }});
   }
+  // Many passes over an image, each of which must add to the ones before.
+  const std::string widest = cpu_instructions().front();
+  backends.push_back({"cpu " + widest + " in small batches",
+                      [widest] { return std::make_unique<CpuRasterizer>(widest, 1000); }});
   return backends;
 }
 

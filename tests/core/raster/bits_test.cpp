@@ -84,7 +84,7 @@ Hashes hashes_of_large_scenes(Rasterizer& rasterizer) {
   Hashes hashes;
   for (int index = 0; index < kLargeScenes; ++index) {
     const auto kind = static_cast<LargeScene>(index);
-    const RasterScene scene = make_large_scene(kind, {211, 157}, 150'000, 1);
+    const RasterScene scene = make_large_scene(kind, {311, 217}, 150'000, 1);
     Hash drawn;
     Hash summed;
     add_drawings(rasterizer, scene, 1, drawn, summed);

@@ -57,6 +57,7 @@ TEST_CASE(
     REQUIRE_NOTHROW(CpuRasterizer(name));
   REQUIRE_THROWS_AS(CpuRasterizer("abacus"), InvalidArgument);
   REQUIRE_THROWS_WITH(CpuRasterizer("abacus"), Contains("abacus"));
+  REQUIRE_THROWS_WITH(CpuRasterizer("scalar", 0), Contains("batch"));
 }
 
 TEST_CASE("a corner index out of range is refused") {
