@@ -13,6 +13,7 @@ void add_all(std::size_t target, SimdKernels& kernels) {
   add_moment_kernels(target, kernels);
   add_triangle_kernels(target, kernels);
   add_box_kernels(target, kernels);
+  add_span_kernels(target, kernels);
 }
 
 std::vector<SimdKernels> find_kernels() {

@@ -66,6 +66,9 @@ struct SimdKernels {
   /// kKeyPadding keys past the last pixel.
   void (*fill_box)(const TriangleSetup& triangle, PrimitiveId id,
                    const DrawTarget& target) = nullptr;
+  /// The same for a triangle of any size whose depths are all drawn.
+  void (*fill_spans)(const TriangleSetup& triangle, PrimitiveId id,
+                     const DrawTarget& target) = nullptr;
 };
 
 /// The sets of instructions that this machine has, the widest first. Found out once.
@@ -77,5 +80,6 @@ void add_point_kernels(std::size_t target, SimdKernels& kernels);
 void add_moment_kernels(std::size_t target, SimdKernels& kernels);
 void add_triangle_kernels(std::size_t target, SimdKernels& kernels);
 void add_box_kernels(std::size_t target, SimdKernels& kernels);
+void add_span_kernels(std::size_t target, SimdKernels& kernels);
 
 }  // namespace rangezip

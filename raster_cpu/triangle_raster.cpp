@@ -12,29 +12,6 @@ namespace rangezip {
 
 namespace {
 
-/// floor(sum of e * z / area) for edge values e >= 0 that add up to `area`, 0 <= z <= 2^26,
-/// exactly (R7): the value and the remainder.
-struct DepthQuotient {
-  std::int64_t value = 0;
-  std::int64_t remainder = 0;
-};
-
-DepthQuotient divide_depth(const std::array<std::int64_t, 3>& e,
-                           const std::array<std::int64_t, 3>& z, std::int64_t area) {
-  // Long division with two digits in base 2^13: area <= 2^46 and each digit below 2^14 keep every
-  // sum below 2^61.
-  constexpr int kDigitBits = 13;
-  constexpr std::int64_t kDigitMask = (1 << kDigitBits) - 1;
-  std::int64_t high = 0;
-  std::int64_t low = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    high += e[i] * (z[i] >> kDigitBits);
-    low += e[i] * (z[i] & kDigitMask);
-  }
-  low += high % area << kDigitBits;
-  return {(high / area << kDigitBits) + low / area, low % area};
-}
-
 void write(const DrawTarget& target, std::size_t pixel, std::int64_t depth, PrimitiveId id) {
   target.keys[pixel] =
       std::min(target.keys[pixel], make_key(static_cast<std::uint32_t>(depth), id));
@@ -185,8 +162,9 @@ class TrianglePainter {
   void draw_snapped(const SnappedTriangle& corners, PrimitiveId id) {
     TriangleSetup setup;
     if (!set_up(corners, item_.facing, target_.extent, setup)) return;
-    if (kernels_ != nullptr && target_.band == nullptr && setup.is_small() && setup.fits_double()) {
-      kernels_->fill_box(setup, id, target_);
+    if (kernels_ != nullptr && target_.band == nullptr && setup.is_in_depth_range()) {
+      const bool is_box = setup.is_small() && setup.fits_double();
+      (is_box ? kernels_->fill_box : kernels_->fill_spans)(setup, id, target_);
       return;
     }
     with_acceptance(target_, [&](const auto& accept) {

@@ -28,4 +28,30 @@ bool set_up(const SnappedTriangle& corners, Facing facing, Extent extent, Triang
   return true;
 }
 
+namespace {
+
+ExactDepth divide_down(std::int64_t numerator, std::int64_t denominator) {
+  const ExactDepth d{numerator / denominator, numerator % denominator};
+  return d.remainder < 0 ? ExactDepth{d.value - 1, d.remainder + denominator} : d;
+}
+
+}  // namespace
+
+ExactDepth divide_depth(const std::array<std::int64_t, 3>& e, const std::array<std::int64_t, 3>& z,
+                        std::int64_t area) {
+  // Long division with two digits in base 2^13: area <= 2^46 and digits below 2^14 keep every sum
+  // below 2^63.
+  constexpr int kDigitBits = 13;
+  constexpr std::int64_t kDigitMask = (1 << kDigitBits) - 1;
+  std::int64_t high = 0;
+  std::int64_t low = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    high += e[i] * (z[i] >> kDigitBits);
+    low += e[i] * (z[i] & kDigitMask);
+  }
+  const ExactDepth upper = divide_down(high, area);
+  const ExactDepth lower = divide_down(low + upper.remainder * (1 << kDigitBits), area);
+  return {upper.value * (1 << kDigitBits) + lower.value, lower.remainder};
+}
+
 }  // namespace rangezip

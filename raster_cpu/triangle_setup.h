@@ -28,11 +28,15 @@ struct TriangleSetup {
     return width < kSmall && height < kSmall;
   }
 
-  /// All of its depths are drawn, and R7 can be computed in double by DepthPlane.
+  /// No fragment is dropped for its depth (R7).
+  [[nodiscard]] bool is_in_depth_range() const {
+    return z_min >= 0 && z_max <= static_cast<std::int32_t>(kMaxDepth);
+  }
+
+  /// R7 can be computed in double by DepthPlane. @pre is_in_depth_range()
   [[nodiscard]] bool fits_double() const {
-    return z_min >= 0 && z_max <= static_cast<std::int32_t>(kMaxDepth) &&
-           static_cast<double>(width) * static_cast<double>(height) * (z_max - z_min) <
-               0x1p52 / 6.0;
+    return static_cast<double>(width) * static_cast<double>(height) * (z_max - z_min) <
+           0x1p52 / 6.0;
   }
 };
 
@@ -46,6 +50,17 @@ template <class Int>
   using Edge = EdgeFunction<Int>;
   return {Edge(t.b, t.c), Edge(t.c, t.a), Edge(t.a, t.b)};
 }
+
+/// A depth as R7 has it, exactly: `value` and `remainder` / area with 0 <= remainder < area.
+struct ExactDepth {
+  std::int64_t value = 0;
+  std::int64_t remainder = 0;
+};
+
+/// floor(sum of e * z / area) for edge values e that add up to `area`, of at most 2^47 each, and
+/// 0 <= z <= 2^26.
+[[nodiscard]] ExactDepth divide_depth(const std::array<std::int64_t, 3>& e,
+                                      const std::array<std::int64_t, 3>& z, std::int64_t area);
 
 /// R7 in double. The depth at a point with the values e_a and e_b of the edges opposite to a and b
 /// is z_c + floor(n / area) with n = e_a (z_a - z_c) + e_b (z_b - z_c). That floor is the integer
