@@ -83,8 +83,8 @@ class DepthWalk {
     }
     row_ = divide_depth(at_first, z, area_);
     row_.value += t.z_min;
-    step_x_ = divide(across);
-    step_y_ = divide(up);
+    step_x_ = divide_down(across, area_);
+    step_y_ = divide_down(up, area_);
   }
 
   void to_next_row() { row_ = sum(row_, step_y_); }
@@ -108,11 +108,6 @@ class DepthWalk {
   }
 
  private:
-  [[nodiscard]] ExactDepth divide(std::int64_t numerator) const {
-    ExactDepth d{numerator / area_, numerator % area_};
-    return d.remainder < 0 ? ExactDepth{d.value - 1, d.remainder + area_} : d;
-  }
-
   std::int64_t area_;
   double per_area_;
   ExactDepth row_;  ///< at the first column

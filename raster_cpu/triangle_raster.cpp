@@ -70,11 +70,6 @@ void draw_small(const TriangleSetup& t, PrimitiveId id, const DrawTarget& target
   }
 }
 
-std::int64_t floor_divide(std::int64_t numerator, std::int64_t denominator) {
-  const std::int64_t quotient = numerator / denominator;
-  return quotient - (numerator % denominator < 0 ? 1 : 0);
-}
-
 /// The part of `span` where margin + step * (x - span.first) >= 0.
 PixelRange inside_edge(PixelRange span, std::int64_t margin, std::int64_t step) {
   if (step == 0) return margin >= 0 ? span : PixelRange{};
@@ -99,8 +94,7 @@ void draw_large(const TriangleSetup& t, PrimitiveId id, const DrawTarget& target
   std::int64_t numerator_step = 0;  // below 3 * 2^31 * 2^26
   for (std::size_t i = 0; i < 3; ++i)
     numerator_step += edges[i].minus_dy * kSubpixels * z[i];
-  const std::int64_t depth_step = floor_divide(numerator_step, t.area);
-  const std::int64_t remainder_step = numerator_step - depth_step * t.area;
+  const auto [depth_step, remainder_step] = divide_down(numerator_step, t.area);
 
   for (int y = t.rows.first; y <= t.rows.last; ++y) {
     PixelRange span = t.columns;

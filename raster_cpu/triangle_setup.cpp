@@ -28,14 +28,10 @@ bool set_up(const SnappedTriangle& corners, Facing facing, Extent extent, Triang
   return true;
 }
 
-namespace {
-
 ExactDepth divide_down(std::int64_t numerator, std::int64_t denominator) {
   const ExactDepth d{numerator / denominator, numerator % denominator};
   return d.remainder < 0 ? ExactDepth{d.value - 1, d.remainder + denominator} : d;
 }
-
-}  // namespace
 
 ExactDepth divide_depth(const std::array<std::int64_t, 3>& e, const std::array<std::int64_t, 3>& z,
                         std::int64_t area) {

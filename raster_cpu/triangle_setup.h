@@ -57,6 +57,9 @@ struct ExactDepth {
   std::int64_t remainder = 0;
 };
 
+/// numerator / denominator, rounded down. @pre denominator > 0
+[[nodiscard]] ExactDepth divide_down(std::int64_t numerator, std::int64_t denominator);
+
 /// floor(sum of e * z / area) for edge values e that add up to `area`, of at most 2^47 each, and
 /// 0 <= z <= 2^26.
 [[nodiscard]] ExactDepth divide_depth(const std::array<std::int64_t, 3>& e,
