@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <utility>
@@ -66,11 +67,19 @@ Grid<double> window_depths(const Framebuffer& drawn) {
   return depths;
 }
 
-void write_images(const ScanOptions& options, const Scan& scan) {
+/// As the files count their points and triangles.
+Grid<PrimitiveId> numbers_of(const Scene& scene, const Grid<PrimitiveId>& drawn) {
+  Grid<PrimitiveId> numbers(drawn.extent());
+  std::transform(drawn.pixels().begin(), drawn.pixels().end(), numbers.pixels().begin(),
+                 [&](PrimitiveId id) { return scene.number_of(id); });
+  return numbers;
+}
+
+void write_images(const ScanOptions& options, const Scene& scene, const Scan& scan) {
   if (options.range_image) write_pfm(*options.range_image, scan.image.depth());
   if (options.depth) write_pfm(*options.depth, window_depths(scan.scene_buffer));
   if (options.mask) write_mask_png(*options.mask, scan.active);
-  if (options.ids) write_id_png(*options.ids, scan.scene_buffer.id);
+  if (options.ids) write_id_png(*options.ids, numbers_of(scene, scan.scene_buffer.id));
 }
 
 void print_summary(Console& console, const Scene& scene, const AddScan& command,
@@ -105,7 +114,7 @@ void scan(const ScanOptions& options, const Context& context) {
   console.end_task();
   progress.check_stop();
 
-  write_output([&] { write_images(options, *session.last_scan()); });
+  write_output([&] { write_images(options, input.scene, *session.last_scan()); });
   if (options.output) {
     require_faces(*session.mesh(), *options.output, "nothing of the input is seen and taken");
     write_output([&] { write_mesh(*options.output, *session.mesh(), options.file); });

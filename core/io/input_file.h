@@ -58,8 +58,8 @@ struct SceneInput {
 };
 
 /// All files as one scene, in order, for scanning: the points of a cloud whose order is not local
-/// are put in order along a curve (see curve_order.h), which draws faster and changes nothing but
-/// their IDs, and so which of two equally near ones is drawn.
+/// are put in order along a curve (see curve_order.h), which draws faster. Scene::number_of() still
+/// tells their places in the file; only which of two equally near ones is drawn may change.
 /// @throws IoError as read_input(); also if all points and corners together are fewer than three,
 ///     equal, or on one line (none farther from it than 1e-5 of the size of the whole).
 /// @throws InvalidArgument if there is no path.

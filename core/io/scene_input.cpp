@@ -84,7 +84,7 @@ void check_extent(const Scene& scene, std::span<const std::filesystem::path> pat
 /// The cloud itself, or another in an order that is drawn faster.
 std::shared_ptr<const PointCloud> for_scanning(std::shared_ptr<const PointCloud> cloud) {
   if (follow_each_other(cloud->positions)) return cloud;
-  return std::make_shared<const PointCloud>(PointCloud{ordered_along_curve(cloud->positions)});
+  return std::make_shared<const PointCloud>(ordered_along_curve(*cloud));
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 
 namespace rangezip {
 
-/// Where a vertex comes from: the primitive of the scene that won its pixel, and the number of
-/// the scan. kNoPrimitive / kNoView for vertices that a fill or a finish made.
+/// Where a vertex comes from: the primitive of the scene that won its pixel (Scene::number_of), and
+/// the number of the scan. kNoPrimitive / kNoView for vertices that a fill or a finish made.
 struct VertexSource {
   static constexpr std::uint32_t kNoView = 0xffff'ffffU;
   PrimitiveId primitive = kNoPrimitive;

@@ -106,11 +106,12 @@ void smooth_samples(Scan& scan, const ScanRequest& request) {
 }
 
 /// Each vertex keeps the number of the primitive that won its pixel.
-void record_sources(Scan& scan) {
+void record_sources(const Scene& scene, Scan& scan) {
   scan.patch.mesh.sources.reserve(scan.patch.pixels.size());
   for (const Pixel p : scan.patch.pixels) {
     scan.patch.mesh.sources.push_back(
-        {.primitive = scan.filled[p] != 0 ? kNoPrimitive : scan.scene_buffer.id[p]});
+        {.primitive =
+             scan.filled[p] != 0 ? kNoPrimitive : scene.number_of(scan.scene_buffer.id[p])});
   }
 }
 
@@ -137,7 +138,7 @@ Scan scan(Rasterizer& rasterizer, const Scene& scene, const TriangleMesh& mesh,
   progress.at("scan", 0.8);
   result.active = choose_active_samples(result, mesh, request, result.report);
   result.patch = triangulate(result.image, result.active, request.triangulate);
-  record_sources(result);
+  record_sources(scene, result);
 
   result.report.samples = count_of(sample_mask(result.image));
   result.report.matched = static_cast<std::size_t>(std::count_if(

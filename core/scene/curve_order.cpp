@@ -92,18 +92,21 @@ bool follow_each_other(std::span<const Vec3f> positions) {
   return close > kPairs / 2;
 }
 
-std::vector<Vec3f> ordered_along_curve(std::span<const Vec3f> positions) {
-  std::vector<Entry> entries = entries_of(positions);
+PointCloud ordered_along_curve(const PointCloud& cloud) {
+  std::vector<Entry> entries = entries_of(cloud.positions);
   std::vector<Entry> sorted(entries.size());
   constexpr int kDigits = 3;
   for (int digit = 0; digit < kDigits; ++digit) {
     sort_by_digit(entries, sorted, digit);
     entries.swap(sorted);
   }
-  std::vector<Vec3f> ordered;
-  ordered.reserve(positions.size());
-  for (const Entry& e : entries)
-    ordered.push_back(positions[e.index]);
+  PointCloud ordered;
+  ordered.positions.reserve(entries.size());
+  ordered.numbers.reserve(entries.size());
+  for (const Entry& e : entries) {
+    ordered.positions.push_back(cloud.positions[e.index]);
+    ordered.numbers.push_back(cloud.numbers.empty() ? e.index : cloud.numbers[e.index]);
+  }
   return ordered;
 }
 

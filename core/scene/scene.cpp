@@ -1,7 +1,9 @@
 #include "core/scene/scene.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 #include <string>
 
 #include "core/base/error.h"
@@ -26,6 +28,20 @@ void check_placement(const Mat4& m) {
   }
   if (m[0][3] != 0.0 || m[1][3] != 0.0 || m[2][3] != 0.0 || m[3][3] != 1.0) {
     throw InvalidArgument("Scene::add: world_from_item must be affine");
+  }
+}
+
+void check_numbers(const PointCloud& cloud) {
+  if (cloud.numbers.empty()) return;
+  const std::size_t count = cloud.positions.size();
+  if (cloud.numbers.size() != count) {
+    throw InvalidArgument("Scene::add: " + std::to_string(cloud.numbers.size()) +
+                          " numbers were given for " + std::to_string(count) + " points");
+  }
+  const std::uint32_t largest = *std::max_element(cloud.numbers.begin(), cloud.numbers.end());
+  if (largest >= count) {
+    throw InvalidArgument("Scene::add: a point's number must be below their count of " +
+                          std::to_string(count) + ", got " + std::to_string(largest));
   }
 }
 
@@ -65,6 +81,7 @@ void Scene::append(CloudItem item, std::size_t primitives) {
 void Scene::add(std::shared_ptr<const PointCloud> cloud, const Mat4& world_from_item) {
   if (!cloud) throw InvalidArgument("Scene::add: cloud must not be null");
   check_placement(world_from_item);
+  check_numbers(*cloud);
   const std::size_t count = cloud->positions.size();
   const Box bounds = bounds_of(cloud->positions, world_from_item);
   append({.cloud = std::move(cloud), .world_from_item = world_from_item}, count);
@@ -120,6 +137,19 @@ std::vector<DrawItem> Scene::draw_items(int point_size, std::span<const std::int
     }
   }
   return drawn;
+}
+
+PrimitiveId Scene::number_of(PrimitiveId id) const {
+  if (id == kNoPrimitive) return id;
+  if (id >= point_count_ + triangle_count_) {
+    throw InvalidArgument("Scene::number_of: there is no primitive " + std::to_string(id));
+  }
+  const auto after = std::upper_bound(
+      items_.begin(), items_.end(), id,
+      [](PrimitiveId wanted, const CloudItem& item) { return wanted < item.first_id; });
+  const CloudItem& item = *std::prev(after);
+  if (!item.cloud || item.cloud->numbers.empty()) return id;
+  return item.first_id + item.cloud->numbers[id - item.first_id];
 }
 
 std::vector<Vec3> Scene::points() const {

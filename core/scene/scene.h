@@ -13,6 +13,9 @@ namespace rangezip {
 /// Points about a local origin; immutable once shared. All finite (readers skip and count others).
 struct PointCloud {
   std::vector<Vec3f> positions;
+  /// The number by which its owner knows each point, in [0, positions.size()); empty: its place
+  /// here. For clouds that were put in another order.
+  std::vector<std::uint32_t> numbers;
 };
 
 /// Triangles about a local origin; no connectivity is assumed. Immutable once shared.
@@ -28,8 +31,9 @@ struct TriangleSoup {
 /// the triangles of a soup take the next free IDs.
 class Scene {
  public:
-  /// @throws InvalidArgument for a null pointer, a corner index out of range, a placement that is
-  ///     not finite and affine, or more than 2^32 - 1 primitives in all.
+  /// @throws InvalidArgument for a null pointer, a corner index or a point's number out of range,
+  ///     another count of numbers than of points, a placement that is not finite and affine, or
+  ///     more than 2^32 - 1 primitives in all.
   void add(std::shared_ptr<const PointCloud> cloud, const Mat4& world_from_item = Mat4{1.0});
   void add(std::shared_ptr<const TriangleSoup> soup, const Mat4& world_from_item = Mat4{1.0});
 
@@ -46,6 +50,11 @@ class Scene {
   /// @throws InvalidArgument if votes are given for another number of points.
   [[nodiscard]] std::vector<DrawItem> draw_items(int point_size = 1,
                                                  std::span<const std::int8_t> votes = {}) const;
+
+  /// What the owner of the clouds and soups calls the primitive that is drawn as `id`: the same,
+  /// but for the points of clouds with numbers; kNoPrimitive stays. O(log items).
+  /// @throws InvalidArgument if nothing is drawn as `id`.
+  [[nodiscard]] PrimitiveId number_of(PrimitiveId id) const;
 
   /// World positions of all points in order of addition, appended to nothing else: one loop for
   /// those who need plain points. O(points) memory.
