@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the preset `release`, runs the benchmarks of speed, stores their results as
-# benchmarks/results/<what>-<machine>.json, and prints README.md's tables of the CPU rasterizer;
+# benchmarks/results/<what>-<machine>.json (raster-full for full), and prints README.md's tables of the CPU rasterizer;
 # what the benchmarks say meanwhile goes to the error stream. quick takes two minutes and 1 GB,
 # full half an hour and 4 GB.
 # Usage: scripts/bench.sh [quick|full]
@@ -20,13 +20,16 @@ cmake --build --preset release --target raster_benchmark io_benchmark -- --quiet
 results=benchmarks/results
 mkdir -p "$results"
 
-# measure WHAT [ARGUMENT...]: runs WHAT_benchmark.
+# measure WHAT NAME [ARGUMENT...]: runs WHAT_benchmark, stores what it says as NAME.
 measure() {
-  local file=$results/$1-$(machine_name).json
-  "build/release/benchmarks/$1_benchmark" "${@:2}" --revision "$(revision)" --json "$file" >&2
+  local file
+  file=$results/$2-$(machine_name).json
+  "build/release/benchmarks/$1_benchmark" "${@:3}" --revision "$(revision)" --json "$file" >&2
   echo "stored in $file" >&2
 }
 
-measure raster "$extent"
-measure io
-benchmarks/table.py "$results/raster-$(machine_name).json"
+name=raster
+[ "$extent" = quick ] || name=raster-full
+measure raster "$name" "$extent"
+measure io io
+benchmarks/table.py "$results/$name-$(machine_name).json"
