@@ -18,7 +18,7 @@ inline constexpr int kCellRowBits = 2;
 inline constexpr int kCellRows = 1 << kCellRowBits;
 
 [[nodiscard]] constexpr std::size_t cell_bins(Extent extent) noexcept {
-  return static_cast<std::size_t>((extent.height >> kCellRowBits) + 1);
+  return static_cast<std::size_t>(extent.height >> kCellRowBits) + 1;
 }
 
 /// A point in its bin, from the highest bit down: 14 bits for the cell's x, 2 for its row in the
