@@ -15,6 +15,8 @@ struct GlOptions {
   std::size_t block_bytes = 0;
   /// Bytes of uploads that are kept for items with a content key.
   std::size_t cache_bytes = std::size_t{1} << 30;
+  /// R2 in double precision, also where floats do it right: for tests.
+  bool wide_rows = false;
 };
 
 /// Draws with OpenGL 4.5 the bits of docs/rasterization.md, hence those of CpuRasterizer. The
@@ -40,8 +42,7 @@ class GlRasterizer final : public Rasterizer {
                            const AccumulateWindow& window, Grid<PixelMoments>& out) override;
 
   struct State;
-  std::unique_ptr<GlContext> context_;
-  std::unique_ptr<State> state_;  ///< destroyed while the context is current
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace rangezip
