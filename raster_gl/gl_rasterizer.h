@@ -20,7 +20,8 @@ struct GlOptions {
 };
 
 /// Draws with OpenGL 4.5 the bits of docs/rasterization.md, hence those of CpuRasterizer. The
-/// context is current during a call only; calls may come from any thread, one at a time.
+/// context is current during a call only; calls may come from any thread, one at a time. Must end
+/// before the process does: no static object, for Mesa takes its contexts down at exit.
 class GlRasterizer final : public Rasterizer {
  public:
   /// @throws BackendError if the context lacks what is needed (docs/determinism.md), or if a test
