@@ -53,8 +53,10 @@ std::span<const DrawPass> ComputeTarget::passes() const noexcept {
 }
 
 const GlProgram& ComputeTarget::kernel(Kernel kernel, DrawPass pass) const {
-  const GlProgram& program = tools_.kernels.get(
-      kernel, {.pass = pass, .has_band = has_band_, .wide_rows = tools_.setup.wide_rows});
+  const GlProgram& program = tools_.kernels.get(kernel, {.pass = pass,
+                                                         .has_band = has_band_,
+                                                         .outside_only = tools_.setup.outside_only,
+                                                         .wide_rows = tools_.setup.wide_rows});
   program.set("width", part_.extent.width);
   program.set("first_row", part_.first_row);
   program.set("row_count", part_.row_count);

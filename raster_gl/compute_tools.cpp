@@ -41,4 +41,17 @@ void SnapRows::bind(const Kernels& kernels, const GlProgram& program,
   program.set("is_central", is_central_);
 }
 
+void SnapRows::snap(const ComputeTools& tools, std::span<const Vec3f> positions,
+                    const UploadKey& key, GlBuffer& snapped, bool is_counting) const {
+  const GlProgram& program =
+      tools.kernels.get(Kernel::snap_positions, {.wide_rows = tools.setup.wide_rows});
+  snapped.reserve(positions.size() * sizeof(SnappedPosition), "snapped positions");
+  bind(tools.kernels, program, tools.uploads.get(key, positions));
+  tools.kernels.bind(Binding::snapped, snapped);
+  program.set("count", static_cast<unsigned>(positions.size()));
+  program.set("is_counting", is_counting ? 1U : 0U);
+  tools.kernels.dispatch(program, groups_of(positions.size(), kPointGroup));
+  tools.device.check("snapping positions");
+}
+
 }  // namespace rangezip

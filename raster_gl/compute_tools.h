@@ -16,6 +16,7 @@ struct ComputeSetup {
   std::size_t block_bytes = 0;    ///< of one buffer, at most
   bool has_atomic_int64 = false;  ///< one pass instead of two
   bool wide_rows = false;         ///< R2 in double precision
+  bool outside_only = false;      ///< draw only the triangles that fixed functions leave out
 };
 
 /// What the parts of the compute strategy share; all of it outlives them.
@@ -51,6 +52,10 @@ class SnapRows {
   void upload(const RowTransform& rows);
   /// Lets `program` snap `positions` by these rows.
   void bind(const Kernels& kernels, const GlProgram& program, const GlBuffer& positions) const;
+  /// Snaps all of `positions` into `snapped`, 3 integers each. Those that R3 or R4 rejects are
+  /// counted if `is_counting`. @throws BackendError if the device fails
+  void snap(const ComputeTools& tools, std::span<const Vec3f> positions, const UploadKey& key,
+            GlBuffer& snapped, bool is_counting = false) const;
 
  private:
   GlBuffer buffer_;

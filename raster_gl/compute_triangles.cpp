@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <numeric>
-#include <unordered_map>
 
 #include "core/base/error.h"
+#include "raster_gl/gathered_triangles.h"
 
 namespace rangezip {
 
@@ -41,7 +41,8 @@ std::size_t ComputeTriangles::draw(const DrawTriangles& item, const RowTransform
   if (item.triangles.empty()) return 0;
   rows_.upload(rows);
   if (item.positions.size() > tools_.chunk_of(sizeof(Vec3f))) return draw_gathered(item, rows);
-  snap(item.positions, {.content_key = item.content_key, .count = item.positions.size()});
+  rows_.snap(tools_, item.positions,
+             {.content_key = item.content_key, .count = item.positions.size()}, snapped_);
   const std::size_t chunk = tools_.chunk_of(sizeof(Triangle));
   std::size_t dropped = 0;
   for (std::size_t end = item.triangles.size(); end > 0;) {
@@ -61,35 +62,13 @@ std::size_t ComputeTriangles::draw_gathered(const DrawTriangles& item, const Row
   std::size_t dropped = 0;
   for (std::size_t end = item.triangles.size(); end > 0;) {
     const std::size_t begin = (end - 1) / chunk * chunk;
-    std::vector<Vec3f> positions;
-    std::vector<Triangle> triangles;
-    std::unordered_map<std::uint32_t, std::uint32_t> place_of;
-    for (const Triangle& triangle : item.triangles.subspan(begin, end - begin)) {
-      Triangle& gathered = triangles.emplace_back();
-      for (std::size_t corner = 0; corner < 3; ++corner) {
-        const auto next = static_cast<std::uint32_t>(positions.size());
-        const auto [found, is_new] = place_of.try_emplace(triangle[corner], next);
-        if (is_new) positions.push_back(item.positions[triangle[corner]]);
-        gathered[corner] = found->second;
-      }
-    }
-    snap(positions, {});
-    const GlBuffer& corners = tools_.uploads.get({}, std::span<const Triangle>(triangles));
+    const GatheredTriangles part = gather(item, begin, end);
+    rows_.snap(tools_, part.positions, {}, snapped_);
+    const GlBuffer& corners = tools_.uploads.get({}, std::span<const Triangle>(part.triangles));
     dropped += draw_range({item, rows, corners, begin}, begin, end);
     end = begin;
   }
   return dropped;
-}
-
-void ComputeTriangles::snap(std::span<const Vec3f> positions, const UploadKey& key) {
-  const GlProgram& program =
-      tools_.kernels.get(Kernel::snap_positions, {.wide_rows = tools_.setup.wide_rows});
-  snapped_.reserve(positions.size() * sizeof(SnappedPosition), "snapped positions");
-  rows_.bind(tools_.kernels, program, tools_.uploads.get(key, positions));
-  tools_.kernels.bind(Binding::snapped, snapped_);
-  program.set("count", static_cast<unsigned>(positions.size()));
-  tools_.kernels.dispatch(program, groups_of(positions.size(), kPointGroup));
-  tools_.device.check("snapping positions");
 }
 
 /// Draws the item's triangles [begin, end), in halves if there are too many tiles for a buffer.

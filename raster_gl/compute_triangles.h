@@ -46,7 +46,6 @@ class ComputeTriangles {
     std::size_t first = 0;  ///< of the item's triangles in `corners`
   };
 
-  void snap(std::span<const Vec3f> positions, const UploadKey& key);
   std::size_t draw_gathered(const DrawTriangles& item, const RowTransform& rows);
   std::size_t draw_range(const Source& source, std::size_t begin, std::size_t end);
   [[nodiscard]] std::size_t cut(const Source& source, std::size_t begin, std::size_t rejected);

@@ -14,7 +14,9 @@ namespace rangezip {
   X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                           \
   X(PFNGLCHECKNAMEDFRAMEBUFFERSTATUSPROC, CheckNamedFramebufferStatus)   \
   X(PFNGLCLEARNAMEDBUFFERSUBDATAPROC, ClearNamedBufferSubData)           \
+  X(PFNGLCLEARNAMEDFRAMEBUFFERFVPROC, ClearNamedFramebufferfv)           \
   X(PFNGLCLEARNAMEDFRAMEBUFFERUIVPROC, ClearNamedFramebufferuiv)         \
+  X(PFNGLCLIPCONTROLPROC, ClipControl)                                   \
   X(PFNGLCOMPILESHADERPROC, CompileShader)                               \
   X(PFNGLCREATEBUFFERSPROC, CreateBuffers)                               \
   X(PFNGLCREATEFRAMEBUFFERSPROC, CreateFramebuffers)                     \
@@ -22,6 +24,7 @@ namespace rangezip {
   X(PFNGLCREATERENDERBUFFERSPROC, CreateRenderbuffers)                   \
   X(PFNGLCREATESHADERPROC, CreateShader)                                 \
   X(PFNGLCREATEVERTEXARRAYSPROC, CreateVertexArrays)                     \
+  X(PFNGLCULLFACEPROC, CullFace)                                         \
   X(PFNGLDEBUGMESSAGECALLBACKPROC, DebugMessageCallback)                 \
   X(PFNGLDELETEBUFFERSPROC, DeleteBuffers)                               \
   X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)                     \
@@ -29,10 +32,14 @@ namespace rangezip {
   X(PFNGLDELETERENDERBUFFERSPROC, DeleteRenderbuffers)                   \
   X(PFNGLDELETESHADERPROC, DeleteShader)                                 \
   X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays)                     \
+  X(PFNGLDEPTHFUNCPROC, DepthFunc)                                       \
+  X(PFNGLDISABLEPROC, Disable)                                           \
   X(PFNGLDISPATCHCOMPUTEPROC, DispatchCompute)                           \
   X(PFNGLDRAWARRAYSPROC, DrawArrays)                                     \
   X(PFNGLENABLEPROC, Enable)                                             \
+  X(PFNGLFRONTFACEPROC, FrontFace)                                       \
   X(PFNGLGETERRORPROC, GetError)                                         \
+  X(PFNGLGETFLOATVPROC, GetFloatv)                                       \
   X(PFNGLGETGRAPHICSRESETSTATUSPROC, GetGraphicsResetStatus)             \
   X(PFNGLGETINTEGER64VPROC, GetInteger64v)                               \
   X(PFNGLGETINTEGERVPROC, GetIntegerv)                                   \
@@ -52,6 +59,7 @@ namespace rangezip {
   X(PFNGLNAMEDRENDERBUFFERSTORAGEPROC, NamedRenderbufferStorage)         \
   X(PFNGLPROGRAMUNIFORM1IPROC, ProgramUniform1i)                         \
   X(PFNGLPROGRAMUNIFORM1UIPROC, ProgramUniform1ui)                       \
+  X(PFNGLPROGRAMUNIFORMMATRIX4FVPROC, ProgramUniformMatrix4fv)           \
   X(PFNGLREADPIXELSPROC, ReadPixels)                                     \
   X(PFNGLSHADERSOURCEPROC, ShaderSource)                                 \
   X(PFNGLUSEPROGRAMPROC, UseProgram)                                     \

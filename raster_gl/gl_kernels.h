@@ -41,9 +41,10 @@ enum class Counter : std::uint8_t {
   rejected_points,     ///< by R3 or R4
   rejected_triangles,  ///< with a corner that is rejected
   tiles,               ///< that large triangles need, whether there was room or not
+  outside_triangles,   ///< that are not wholly inside of the viewport (hardware_text.h)
   full_pixel,          ///< 1 + number of a pixel that has more points than R13 allows, or 0
 };
-inline constexpr std::size_t kCounters = 4;
+inline constexpr std::size_t kCounters = 5;
 
 /// Most points that one pixel may sum (R13).
 inline constexpr std::uint32_t kMostPointsPerPixel = 1U << 19U;
@@ -67,6 +68,7 @@ enum class Kernel : std::uint8_t {
   draw_small_triangles,  ///< R6, R7: one invocation a triangle of up to 64 pixels
   draw_tiles,            ///< R6, R7: 64 invocations a tile of 256 x 64 pixels
   sum_points,            ///< R13
+  count_outside,         ///< triangles that are not wholly inside of the viewport
 };
 
 /// The compute programs, each compiled when it is first used.
@@ -83,7 +85,7 @@ class Kernels {
   void bind(Binding binding, const GlBuffer& buffer) const;
 
  private:
-  using Key = std::tuple<Kernel, DrawPass, bool, bool>;
+  using Key = std::tuple<Kernel, DrawPass, bool, bool, bool>;
 
   const GlDevice& device_;
   std::map<Key, GlProgram> programs_;

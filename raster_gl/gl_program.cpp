@@ -60,4 +60,9 @@ void GlProgram::set(const char* uniform, unsigned value) const {
   device_->gl().ProgramUniform1ui(name(), location, value);
 }
 
+void GlProgram::set(const char* uniform, const glm::mat4& value) const {
+  const GLint location = device_->gl().GetUniformLocation(name(), uniform);
+  device_->gl().ProgramUniformMatrix4fv(name(), location, 1, GL_FALSE, &value[0][0]);
+}
+
 }  // namespace rangezip

@@ -3,6 +3,8 @@
 #include <initializer_list>
 #include <string>
 
+#include <glm/mat4x4.hpp>
+
 #include "raster_gl/gl_device.h"
 #include "raster_gl/gl_objects.h"
 
@@ -26,6 +28,7 @@ class GlProgram {
   /// Sets a uniform; one that the program does not use is left out.
   void set(const char* uniform, int value) const;
   void set(const char* uniform, unsigned value) const;
+  void set(const char* uniform, const glm::mat4& value) const;
 
  private:
   const GlDevice* device_;

@@ -187,6 +187,15 @@ Trial cut(Random& random) {
   return trial;
 }
 
+Trial clipped_triangles(Random& random) {
+  Trial trial{.rule = "R11, triangles cut by clip planes"};
+  trial.camera.clip_planes = {{{1.0, 0.5, 0.0}, 9.0}, {{0.0, -1.0, 0.0}, 20.0}};
+  for (int i = 0; i < 100; ++i) {
+    add(trial, 3, [&] { return Vec3f{random.number(0, kSide), random.number(0, kSide), 100 - i}; });
+  }
+  return trial;
+}
+
 Trial ties(Random& random, int point_size) {
   Trial trial{.rule = "R9, equal depths", .point_size = point_size};
   add(trial, 300, [&] { return Vec3f{random.number(0, kSide), random.number(0, kSide), 5}; });
@@ -219,6 +228,7 @@ std::vector<Trial> all_trials() {
   for (const int reach : {0, 7000, 200'000})
     trials.push_back(slopes(random, reach));
   trials.push_back(cut(random));
+  trials.push_back(clipped_triangles(random));
   for (const int size : {0, 1, 5})
     trials.push_back(banded(random, size));
   return trials;

@@ -1,6 +1,7 @@
 #include "raster_gl/shader_text.h"
 
 #include "raster_gl/gl_kernels.h"
+#include "raster_gl/hardware_text.h"
 
 namespace rangezip::shader_text {
 
@@ -188,12 +189,15 @@ void main() {
 
 constexpr const char* kSnapMain = R"(
 layout(std430, binding = SNAPPED) writeonly buffer Snapped { int snapped[]; };
+layout(std430, binding = COUNTERS) buffer Counters { uint counters[]; };
+uniform uint is_counting;
 
 void main() {
   uint i = invocation();
   if (i >= count) return;
   bool rejected, clipped;
   ivec3 p = snap(i, rejected, clipped);
+  if (rejected && is_counting != 0u) atomicAdd(counters[REJECTED_POINTS], 1u);
   snapped[3u * i] = clipped ? REJECTED_X : p.x;
   snapped[3u * i + 1u] = p.y;
   snapped[3u * i + 2u] = p.z;
@@ -236,6 +240,10 @@ uint id_of(uint triangle) { return has_ids != 0u ? ids[triangle] : first_id + tr
 
 // R6; false if nothing is drawn.
 bool set_up(Corners3 t, out Setup s) {
+#if OUTSIDE_ONLY
+  // Pieces, which have IDs of their own, are never left to the hardware.
+  if (has_ids == 0u && is_inside(t.a) && is_inside(t.b) && is_inside(t.c)) return false;
+#endif
   ivec3 least = min(t.a, min(t.b, t.c));
   ivec3 most = max(t.a, max(t.b, t.c));
   // Pixels whose centres lie in the box; the shift rounds down.
@@ -416,6 +424,18 @@ void main() {
 }
 )";
 
+constexpr const char* kOutside = R"(
+layout(std430, binding = COUNTERS) buffer Counters { uint counters[]; };
+
+void main() {
+  uint triangle = invocation();
+  if (triangle >= count) return;
+  Corners3 t = corners_of(triangle);
+  if (is_inside(t.a) && is_inside(t.b) && is_inside(t.c)) return;
+  atomicAdd(counters[OUTSIDE_TRIANGLES], 1u);
+}
+)";
+
 constexpr const char* kSums = R"(
 layout(std430, binding = VOTES) readonly buffer Votes { uint votes[]; };  // four bytes a number
 layout(std430, binding = LOWER) readonly buffer Lower { int lower[]; };
@@ -506,6 +526,7 @@ std::string prelude(const ShaderVariant& variant, std::size_t group_size) {
   text += define("PASS", static_cast<int>(variant.pass));
   text += define("ATOMIC_INT64", variant.pass == DrawPass::key ? 1 : 0);
   text += define("HAS_BAND", variant.has_band ? 1 : 0);
+  text += define("OUTSIDE_ONLY", variant.outside_only ? 1 : 0);
   text += define("WIDE_ROWS", variant.wide_rows ? 1 : 0);
   text += kernel_definitions();
   return text;
@@ -520,16 +541,31 @@ std::string draw_points(const ShaderVariant& variant) {
   return prelude(variant, kPointGroup) + kInvocation + kNumbers + kSnap + kPlot + kPoints;
 }
 std::string classify_triangles(const ShaderVariant& variant) {
-  return prelude(variant, kTriangleGroup) + kInvocation + kPlot + kTriangle + kClassify;
+  return prelude(variant, kTriangleGroup) + kInvocation + kPlot + inside_viewport() + kTriangle +
+         kClassify;
 }
 std::string draw_small_triangles(const ShaderVariant& variant) {
-  return prelude(variant, kTriangleGroup) + kInvocation + kPlot + kTriangle + kSmallTriangles;
+  return prelude(variant, kTriangleGroup) + kInvocation + kPlot + inside_viewport() + kTriangle +
+         kSmallTriangles;
 }
 std::string draw_tiles(const ShaderVariant& variant) {
-  return prelude(variant, kTriangleGroup) + kInvocation + kPlot + kTriangle + kTiles;
+  return prelude(variant, kTriangleGroup) + kInvocation + kPlot + inside_viewport() + kTriangle +
+         kTiles;
 }
 std::string sum_points(const ShaderVariant& variant) {
   return prelude(variant, kPointGroup) + kInvocation + kNumbers + kSnap + kSums;
+}
+
+std::string count_outside(const ShaderVariant& variant) {
+  return prelude(variant, kTriangleGroup) + kInvocation + kPlot + inside_viewport() + kTriangle +
+         kOutside;
+}
+
+std::string inside_viewport() {
+  return "bool is_inside(ivec3 p) {\n" +
+         ("  return all(greaterThan(p.xy, ivec2(" + std::to_string(-256 * kViewportMargin)) +
+         "))) && all(lessThan(p.xy, ivec2(" +
+         std::to_string(256 * (kViewportSize - kViewportMargin)) + ")));\n}\n";
 }
 
 }  // namespace rangezip::shader_text

@@ -14,8 +14,9 @@ enum class DrawPass {
 /// What a program is made for; one that draws is compiled for each set in use.
 struct ShaderVariant {
   DrawPass pass = DrawPass::depth;
-  bool has_band = false;   ///< R12
-  bool wide_rows = false;  ///< R2 in double precision, for drivers whose floats flush denormals
+  bool has_band = false;      ///< R12
+  bool outside_only = false;  ///< triangles that fixed functions leave out (inside_viewport())
+  bool wide_rows = false;     ///< R2 in double precision, for drivers whose floats flush denormals
 };
 
 /// Compute kernels in GLSL, by docs/rasterization.md. All in integers, but for R2-R4.
@@ -28,6 +29,10 @@ namespace shader_text {
 [[nodiscard]] std::string draw_small_triangles(const ShaderVariant& variant);
 [[nodiscard]] std::string draw_tiles(const ShaderVariant& variant);
 [[nodiscard]] std::string sum_points(const ShaderVariant& variant);
+[[nodiscard]] std::string count_outside(const ShaderVariant& variant);
+
+/// is_inside(corner): whether the hardware draws a triangle of such corners whole, unclipped.
+[[nodiscard]] std::string inside_viewport();
 
 }  // namespace shader_text
 

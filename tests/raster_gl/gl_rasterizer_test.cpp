@@ -1,6 +1,7 @@
 #include "raster_gl/gl_rasterizer.h"
 
 #include <catch2/catch.hpp>
+#include <cstdlib>
 #include <memory>
 
 #include "core/base/error.h"
@@ -54,18 +55,25 @@ TEST_CASE("OSMesa and EGL draw different scenes in turn without mixing") {
 }
 
 TEST_CASE("scenes and images beyond a buffer are drawn in parts, with the same bits") {
-  // Room for 500 positions, 166 gathered triangles, 1500 pixels, 75 pixels of sums.
-  GlRasterizer rasterizer(make_gl_context("osmesa"), {.block_bytes = 6000});
-  check_fuzz(rasterizer, 7, 3 * kSceneFamilies);
-  // A triangle with all of its tiles must fit.
-  GlRasterizer larger(make_gl_context("osmesa"), {.block_bytes = std::size_t{1} << 17});
-  for (int kind = 0; kind < kLargeScenes; ++kind)
-    check_large(larger, static_cast<LargeScene>(kind), {301, 203}, 40'000);
+  for (const GlStrategy strategy : {GlStrategy::compute, GlStrategy::fixed_function}) {
+    CAPTURE(name_of(strategy));
+    // Room for 500 positions, 166 gathered triangles, 1500 pixels, 75 pixels of sums.
+    GlRasterizer rasterizer(make_gl_context("osmesa"), {.strategy = strategy, .block_bytes = 6000});
+    check_fuzz(rasterizer, 7, 3 * kSceneFamilies);
+    // A triangle with all of its tiles must fit.
+    GlRasterizer larger(make_gl_context("osmesa"),
+                        {.strategy = strategy, .block_bytes = std::size_t{1} << 17});
+    for (int kind = 0; kind < kLargeScenes; ++kind)
+      check_large(larger, static_cast<LargeScene>(kind), {301, 203}, 40'000);
+  }
 }
 
 TEST_CASE("rows in double precision give the bits of floats") {
-  GlRasterizer rasterizer(make_gl_context("osmesa"), {.wide_rows = true});
-  check_fuzz(rasterizer, 8, 5 * kSceneFamilies);
+  for (const GlStrategy strategy : {GlStrategy::compute, GlStrategy::fixed_function}) {
+    CAPTURE(name_of(strategy));
+    GlRasterizer rasterizer(make_gl_context("osmesa"), {.strategy = strategy, .wide_rows = true});
+    check_fuzz(rasterizer, 8, 3 * kSceneFamilies);
+  }
 }
 
 TEST_CASE("a drawing may take more groups than OpenGL counts in one dimension") {
@@ -92,10 +100,71 @@ TEST_CASE("an image of the largest extent is drawn") {
   const std::vector<Vec3f> positions{{edge - 300, edge - 300, 7}, {200, edge - 1, 9}};
   const std::vector<DrawItem> items{lattice::triangles(kLargest, corners, face),
                                     lattice::points(kLargest, positions, 5, 255)};
-  GlRasterizer rasterizer(make_gl_context("egl"));
-  CpuRasterizer reference;
   const View view = lattice::view(kLargest);
-  CHECK(rasterizer.render(view, items) == reference.render(view, items));
+  const Framebuffer expected = CpuRasterizer().render(view, items);
+  for (const GlStrategy strategy : {GlStrategy::compute, GlStrategy::fixed_function}) {
+    CAPTURE(name_of(strategy));
+    GlRasterizer rasterizer(make_gl_context("egl"), {.strategy = strategy});
+    CHECK(rasterizer.render(view, items) == expected);
+  }
+}
+
+TEST_CASE("strategies have names, and what is chosen is used") {
+  for (const GlStrategy strategy :
+       {GlStrategy::compute, GlStrategy::fixed_function, GlStrategy::native}) {
+    CAPTURE(name_of(strategy));
+    CHECK(gl_strategy(name_of(strategy)) == strategy);
+    const GlRasterizer rasterizer(make_gl_context("osmesa"), {.strategy = strategy});
+    CHECK(rasterizer.strategy() == strategy);
+    CHECK_THAT(rasterizer.info().name,
+               Catch::StartsWith("gl:osmesa, ") && Catch::EndsWith(", " + name_of(strategy)));
+    CHECK(rasterizer.info().reproducible == (strategy != GlStrategy::native));
+  }
+  CHECK(GlRasterizer(make_gl_context("osmesa")).strategy() == GlStrategy::compute);
+  CHECK_THROWS_AS(gl_strategy("abacus"), InvalidArgument);
+  CHECK_THROWS_WITH(gl_strategy("abacus"), Contains("known: automatic, compute"));
+}
+
+TEST_CASE("native drawing comes near to the rules") {
+  GlRasterizer native(make_gl_context("osmesa"), {.strategy = GlStrategy::native});
+  CpuRasterizer reference;
+  for (const LargeScene kind : {LargeScene::mesh, LargeScene::central, LargeScene::splats}) {
+    CAPTURE(name_of(kind));
+    const RasterScene scene = make_large_scene(kind, {301, 203}, 20'000, 3);
+    const Framebuffer expected = reference.render(scene.view, scene.items);
+    const Framebuffer image = native.render(scene.view, scene.items);
+    std::size_t near = 0;
+    std::size_t covered = 0;
+    for (std::size_t i = 0; i < expected.id.pixels().size(); ++i) {
+      if (expected.id.pixels()[i] == kNoPrimitive) continue;
+      ++covered;
+      const std::int64_t depth = expected.depth.pixels()[i];
+      near += std::abs(depth - image.depth.pixels()[i]) < 1 << 12 ? 1 : 0;
+    }
+    REQUIRE(covered > 10'000);
+    CHECK(near > covered * 9 / 10);
+  }
+}
+
+TEST_CASE("native drawing has bands, sums, and the clip planes of OpenGL only") {
+  constexpr Extent kExtent{20, 16};
+  Camera camera = lattice::view(kExtent).camera();
+  camera.clip_planes = {{{1.0, 0.0, 0.0}, 0.0}};  // the right half
+  const std::vector<Vec3f> corners{{-9999, -9999, 500}, {40'000, -9999, 500}, {0, 40'000, 500}};
+  const std::vector<Triangle> face{{0, 1, 2}};
+  const std::vector<DrawItem> items{lattice::triangles(kExtent, corners, face, 3)};
+  GlRasterizer native(make_gl_context("osmesa"), {.strategy = GlStrategy::native});
+  const Framebuffer image = native.render(View(camera, kExtent), items);
+  CHECK(image.id[{9, 5}] == kNoPrimitive);
+  CHECK(image.id[{10, 5}] == 3);
+  DepthBand band = lattice::whole_band(kExtent);
+  band.upper[{12, 5}] = 400;
+  Framebuffer banded;
+  native.render_in_band(View(camera, kExtent), items, band, banded);
+  CHECK(banded.id[{12, 5}] == kNoPrimitive);
+  CHECK(banded.id[{13, 5}] == 3);
+  camera.clip_planes.resize(9, camera.clip_planes.front());
+  CHECK_THROWS_WITH(native.render(View(camera, kExtent), items), Contains("8 clip planes"));
 }
 
 TEST_CASE("what has a content key is uploaded once, as long as there is room") {

@@ -52,7 +52,13 @@ CATCH_REGISTER_LISTENER(EndOfRasterizers)
 
 std::unique_ptr<Rasterizer> make_shared_gl(const std::string& name) {
   std::unique_ptr<GlRasterizer>& shared = started_rasterizers()[name];
-  if (shared == nullptr) shared = std::make_unique<GlRasterizer>(make_gl_context(name));
+  if (shared == nullptr) {
+    const std::size_t blank = name.find(' ');
+    shared = std::make_unique<GlRasterizer>(
+        make_gl_context(name.substr(0, blank)),
+        GlOptions{.strategy = blank == std::string::npos ? GlStrategy::automatic
+                                                         : gl_strategy(name.substr(blank + 1))});
+  }
   return std::make_unique<SharedRasterizer>(*shared);
 }
 
