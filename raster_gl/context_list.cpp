@@ -71,6 +71,7 @@ std::vector<std::string> list_gl_contexts() {
   } catch (const BackendError&) {
     // Then "egl:surfaceless" says why.
   }
+  names.reserve(static_cast<std::size_t>(devices) + 2);
   for (int device = 0; device < devices; ++device)
     names.push_back(std::string(kDevicePrefix) + std::to_string(device));
   names.emplace_back("egl:surfaceless");

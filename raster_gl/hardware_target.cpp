@@ -55,8 +55,9 @@ void HardwareTarget::begin(const ImagePart& part, const DepthBand* band, Project
   gl.Enable(GL_DEPTH_TEST);
   gl.DepthFunc(GL_LESS);
   gl.Enable(GL_PROGRAM_POINT_SIZE);
-  for (const GLenum capability : {GL_MULTISAMPLE, GL_DITHER, GL_CULL_FACE})
-    gl.Disable(capability);
+  gl.Disable(GL_MULTISAMPLE);
+  gl.Disable(GL_DITHER);
+  gl.Disable(GL_CULL_FACE);
   if (projection == Projection::fixed) {
     gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     gl.Viewport(-kViewportMargin, -kViewportMargin - part.first_row, kViewportSize, kViewportSize);

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <random>
 #include <vector>
 
 #include "raster_gl/plain_drawing.h"
@@ -45,16 +44,25 @@ class Random {
  public:
   int whole(int lower, int upper) {
     const auto count = static_cast<std::uint32_t>(upper - lower + 1);
-    return lower + static_cast<int>(engine_() % count);
+    return lower + static_cast<int>(bits() % count);
   }
   /// whole(), as a coordinate.
   float number(int lower, int upper) { return static_cast<float>(whole(lower, upper)); }
   float between(float lower, float upper) {
-    return lower + (upper - lower) * static_cast<float>(engine_()) * 0x1p-32F;
+    return lower + (upper - lower) * static_cast<float>(bits()) * 0x1p-32F;
   }
 
  private:
-  std::mt19937 engine_{4};
+  /// [Steele, Lea, Flood 2014]
+  std::uint32_t bits() {
+    state_ += 0x9e37'79b9'7f4a'7c15U;
+    std::uint64_t z = state_;
+    z = (z ^ z >> 30U) * 0xbf58'476d'1ce4'e5b9U;
+    z = (z ^ z >> 27U) * 0x94d0'49bb'1331'11ebU;
+    return static_cast<std::uint32_t>((z ^ z >> 31U) >> 32U);
+  }
+
+  std::uint64_t state_ = 4;
 };
 
 void add(Trial& trial, int count, const std::function<Vec3f()>& next) {
