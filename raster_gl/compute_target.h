@@ -27,7 +27,9 @@ class ComputeTarget {
   [[nodiscard]] std::span<const DrawPass> passes() const noexcept;
 
   /// A kernel that draws here, with what it needs of the target.
-  [[nodiscard]] const GlProgram& kernel(Kernel kernel, DrawPass pass) const;
+  /// @param single_pixels for points: all are of size 1
+  [[nodiscard]] const GlProgram& kernel(Kernel kernel, DrawPass pass,
+                                        bool single_pixels = false) const;
 
   /// Copies the part into the image. @pre `out` has the image's extent
   void read(Framebuffer& out);

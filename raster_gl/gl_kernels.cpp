@@ -66,7 +66,9 @@ std::string kernel_definitions() {
 }
 
 const GlProgram& Kernels::get(Kernel kernel, const ShaderVariant& variant) {
-  const Key key{kernel, variant.pass, variant.has_band, variant.outside_only, variant.wide_rows};
+  const Key key{
+      kernel,           variant.pass, variant.has_band, variant.outside_only, variant.single_pixels,
+      variant.wide_rows};
   const auto found = programs_.find(key);
   if (found != programs_.end()) return found->second;
   GlProgram program(device_, name_of(kernel), {{GL_COMPUTE_SHADER, source_of(kernel, variant)}});

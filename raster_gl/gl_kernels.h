@@ -85,7 +85,7 @@ class Kernels {
   void bind(Binding binding, const GlBuffer& buffer) const;
 
  private:
-  using Key = std::tuple<Kernel, DrawPass, bool, bool, bool>;
+  using Key = std::tuple<Kernel, DrawPass, bool, bool, bool, bool>;
 
   const GlDevice& device_;
   std::map<Key, GlProgram> programs_;

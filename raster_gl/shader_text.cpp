@@ -167,14 +167,25 @@ uniform uint lanes;  // invocations that share a point
 uniform uint is_counting;
 
 void main() {
+#if SINGLE_PIXELS
+  uint point = invocation();
+  uint lane = 0u;
+#else
   uint point = invocation() / lanes;
   uint lane = invocation() % lanes;
+#endif
   if (point >= count) return;
   bool rejected, clipped;
   ivec3 p = snap(point, rejected, clipped);
   if (rejected && is_counting != 0u && lane == 0u) atomicAdd(counters[REJECTED_POINTS], 1u);
   if (rejected || clipped) return;
   // R5, and what is on screen.
+#if SINGLE_PIXELS
+  ivec2 at = p.xy >> 8;
+  if (uint(at.x) < uint(width) && uint(at.y - first_row) < uint(row_count)) {
+    plot(at.x, at.y, p.z, first_id + point);
+  }
+#else
   ivec2 first = (p.xy - 128 * (point_size - 1)) >> 8;
   ivec2 lowest = max(first, ivec2(0, first_row));
   ivec2 size = min(first + point_size, ivec2(width, first_row + row_count)) - lowest;
@@ -184,6 +195,7 @@ void main() {
     ivec2 at = lowest + ivec2(i % uint(size.x), i / uint(size.x));
     plot(at.x, at.y, p.z, first_id + point);
   }
+#endif
 }
 )";
 
@@ -526,6 +538,7 @@ std::string prelude(const ShaderVariant& variant, std::size_t group_size) {
   text += define("PASS", static_cast<int>(variant.pass));
   text += define("ATOMIC_INT64", variant.pass == DrawPass::key ? 1 : 0);
   text += define("HAS_BAND", variant.has_band ? 1 : 0);
+  text += define("SINGLE_PIXELS", variant.single_pixels ? 1 : 0);
   text += define("OUTSIDE_ONLY", variant.outside_only ? 1 : 0);
   text += define("WIDE_ROWS", variant.wide_rows ? 1 : 0);
   text += kernel_definitions();

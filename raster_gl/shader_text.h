@@ -14,9 +14,10 @@ enum class DrawPass {
 /// What a program is made for; one that draws is compiled for each set in use.
 struct ShaderVariant {
   DrawPass pass = DrawPass::depth;
-  bool has_band = false;      ///< R12
-  bool outside_only = false;  ///< triangles that fixed functions leave out (inside_viewport())
-  bool wide_rows = false;     ///< R2 in double precision, for drivers whose floats flush denormals
+  bool has_band = false;       ///< R12
+  bool outside_only = false;   ///< triangles that fixed functions leave out (inside_viewport())
+  bool single_pixels = false;  ///< points of size 1, the bulk of a large cloud
+  bool wide_rows = false;      ///< R2 in double precision, for drivers whose floats flush denormals
 };
 
 /// Compute kernels in GLSL, by docs/rasterization.md. All in integers, but for R2-R4.

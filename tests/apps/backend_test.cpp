@@ -10,15 +10,6 @@
 using namespace rangezip::test;
 using Catch::Contains;
 
-namespace {
-
-std::string content_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-}  // namespace
-
 TEST_CASE("an unknown backend is refused with exit code 4 and the known ones", "[apps]") {
   const TemporaryFolder folder;
   const std::string cloud = folder.store("cloud.xyz", "0 0 0\n1 0 0\n0 1 0\n").string();
@@ -39,6 +30,15 @@ TEST_CASE("backends lists the CPU first, as working", "[apps]") {
 }
 
 #ifdef RANGEZIP_WITH_GL
+
+namespace {
+
+std::string content_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
 
 TEST_CASE("backends lists OSMesa and EGL, which work here", "[apps]") {
   const RunResult result = run({"backends"});
