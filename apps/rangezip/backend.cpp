@@ -1,17 +1,82 @@
 #include "apps/rangezip/backend.h"
 
+#include <cstdlib>
+#include <string_view>
+
 #include "core/base/error.h"
+#include "core/base/parallel.h"
 #include "raster_cpu/cpu_rasterizer.h"
+#ifdef RANGEZIP_WITH_GL
+#include "raster_gl/context_list.h"
+#include "raster_gl/gl_rasterizer.h"
+#endif
 
 namespace rangezip::app {
 
+namespace {
+
+#ifdef RANGEZIP_WITH_GL
+
+constexpr const char* kKnown = "cpu, gl, gl:osmesa, gl:egl, gl:egl:N, gl:egl:surfaceless";
+
+std::unique_ptr<Rasterizer> make_gl_rasterizer(const std::string& context) {
+  // Mesa asks when its first context starts.
+  constexpr int kKeepIfSet = 0;
+  setenv("LP_NUM_THREADS", std::to_string(thread_count()).c_str(), kKeepIfSet);
+  return std::make_unique<GlRasterizer>(make_gl_context(context));
+}
+
+std::vector<std::string> gl_backends() {
+  std::vector<std::string> names;
+  for (const std::string& context : list_gl_contexts())
+    names.push_back("gl:" + context);
+  return names;
+}
+
+#else
+
+constexpr const char* kKnown = "cpu (this program was built without OpenGL)";
+
+std::unique_ptr<Rasterizer> make_gl_rasterizer(const std::string& /*context*/) {
+  throw BackendError("this program was built without OpenGL (RANGEZIP_WITH_GL=OFF); known: cpu");
+}
+
+std::vector<std::string> gl_backends() {
+  return {"gl"};
+}
+
+#endif
+
+BackendStatus try_backend(const std::string& name) {
+  try {
+    return {.name = name, .works = true, .text = make_rasterizer(name)->info().name};
+  } catch (const BackendError& error) {
+    return {.name = name, .works = false, .text = error.what()};
+  }
+}
+
+}  // namespace
+
 std::string known_backends() {
-  return "cpu";
+  return kKnown;
 }
 
 std::unique_ptr<Rasterizer> make_rasterizer(const std::string& name) {
+  constexpr std::string_view kContextPrefix = "gl:";
   if (name == "cpu") return std::make_unique<CpuRasterizer>();
+  if (name == "gl") return make_gl_rasterizer("");
+  if (name.size() > kContextPrefix.size() && name.starts_with(kContextPrefix)) {
+    return make_gl_rasterizer(name.substr(kContextPrefix.size()));
+  }
   throw BackendError("there is no backend '" + name + "'; known: " + known_backends());
+}
+
+std::vector<BackendStatus> try_backends() {
+  std::vector<BackendStatus> all{
+      {.name = "cpu", .works = true, .text = "cpu, " + cpu_instructions().front()}};
+  for (const std::string& name : gl_backends())
+    all.push_back(try_backend(name));
+  return all;
 }
 
 }  // namespace rangezip::app

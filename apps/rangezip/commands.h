@@ -50,5 +50,6 @@ void add_scan_command(CLI::App& app, Action& action);
 void add_render_command(CLI::App& app, Action& action);
 void add_play_command(CLI::App& app, Action& action);
 void add_info_command(CLI::App& app, Action& action);
+void add_backends_command(CLI::App& app, Action& action);
 
 }  // namespace rangezip::app

@@ -83,6 +83,7 @@ int parse_and_run(int argc, char** argv) {
   add_render_command(app, action);
   add_play_command(app, action);
   add_info_command(app, action);
+  add_backends_command(app, action);
   try {
     check_command_name(app, argc, argv);
     app.parse(argc, argv);

@@ -17,7 +17,7 @@ TEST_CASE("--version names the program and its version", "[apps]") {
 TEST_CASE("--help lists every command and every exit code", "[apps]") {
   const RunResult result = run({"--help"});
   CHECK(result.code == 0);
-  for (const char* command : {"mesh", "scan", "render", "play", "info"})
+  for (const char* command : {"mesh", "scan", "render", "play", "info", "backends"})
     CHECK_THAT(result.out, Contains(std::string("\n  ") + command + " "));
   for (const char* code :
        {"\n  0  ", "\n  1  ", "\n  2  ", "\n  3  ", "\n  4  ", "\n  5  ", "\n  6  ", "\n  130  "})
@@ -39,7 +39,8 @@ TEST_CASE("the help of a command names its options", "[apps]") {
       {"render",
        {"FILE", "-o", "--direction", "--up", "--size", "--edges", "--boundary", "--points"}},
       {"play", {"SESSION", "-o"}},
-      {"info", {"FILE", "--check"}}};
+      {"info", {"FILE", "--check"}},
+      {"backends", {"--backend gl"}}};
   for (const auto& [command, options] : commands) {
     CAPTURE(command);
     const RunResult result = run({command, "--help"});
@@ -94,18 +95,5 @@ TEST_CASE("a wrong command line is refused with exit code 1 and the reason", "[a
     CHECK(result.out.empty());
     CHECK_THAT(result.err, Contains(reason));
   }
-  CHECK(folder.count() == 1);
-}
-
-TEST_CASE("an unknown backend is refused with exit code 4 and the known ones", "[apps]") {
-  const TemporaryFolder folder;
-  const std::string cloud = folder.store("cloud.xyz", "0 0 0\n1 0 0\n0 1 0\n").string();
-  const RunResult by_option = run({"mesh", cloud, "-o", folder / "out.ply", "--backend", "abacus"});
-  CHECK(by_option.code == 4);
-  CHECK_THAT(by_option.err, Contains("there is no backend 'abacus'; known: cpu"));
-  const RunResult by_environment = run({"mesh", cloud, "-o", folder / "out.ply"},
-                                       {.environment = {{"RANGEZIP_BACKEND", "abacus"}}});
-  CHECK(by_environment.code == 4);
-  CHECK_THAT(by_environment.err, Contains("known: cpu"));
   CHECK(folder.count() == 1);
 }

@@ -1,0 +1,94 @@
+#include "raster_gl/gl_kernels.h"
+
+#include <algorithm>
+
+namespace rangezip {
+
+namespace {
+
+std::string source_of(Kernel kernel, const ShaderVariant& variant) {
+  switch (kernel) {
+    case Kernel::snap_positions:
+      return shader_text::snap_positions(variant);
+    case Kernel::draw_points:
+      return shader_text::draw_points(variant);
+    case Kernel::classify_triangles:
+      return shader_text::classify_triangles(variant);
+    case Kernel::draw_small_triangles:
+      return shader_text::draw_small_triangles(variant);
+    case Kernel::draw_tiles:
+      return shader_text::draw_tiles(variant);
+    case Kernel::count_outside:
+      return shader_text::count_outside(variant);
+    case Kernel::sum_points:
+      break;
+  }
+  return shader_text::sum_points(variant);
+}
+
+const char* name_of(Kernel kernel) {
+  switch (kernel) {
+    case Kernel::snap_positions:
+      return "snap_positions";
+    case Kernel::draw_points:
+      return "draw_points";
+    case Kernel::classify_triangles:
+      return "classify_triangles";
+    case Kernel::draw_small_triangles:
+      return "draw_small_triangles";
+    case Kernel::draw_tiles:
+      return "draw_tiles";
+    case Kernel::count_outside:
+      return "count_outside";
+    case Kernel::sum_points:
+      break;
+  }
+  return "sum_points";
+}
+
+}  // namespace
+
+std::string kernel_definitions() {
+  std::string text;
+  const auto define = [&](const char* name, std::uint32_t value) {
+    text += "#define " + std::string(name) + " " + std::to_string(value) + "\n";
+  };
+#define RANGEZIP_GL_DEFINE(binding, name) define(#name, static_cast<GLuint>(Binding::binding));
+  RANGEZIP_GL_BINDINGS(RANGEZIP_GL_DEFINE)
+#undef RANGEZIP_GL_DEFINE
+  define("REJECTED_POINTS", static_cast<std::uint32_t>(Counter::rejected_points));
+  define("REJECTED_TRIANGLES", static_cast<std::uint32_t>(Counter::rejected_triangles));
+  define("TILE_COUNT", static_cast<std::uint32_t>(Counter::tiles));
+  define("OUTSIDE_TRIANGLES", static_cast<std::uint32_t>(Counter::outside_triangles));
+  define("FULL_PIXEL", static_cast<std::uint32_t>(Counter::full_pixel));
+  define("MOST_POINTS", kMostPointsPerPixel);
+  return text;
+}
+
+const GlProgram& Kernels::get(Kernel kernel, const ShaderVariant& variant) {
+  const Key key{
+      kernel,           variant.pass, variant.has_band, variant.outside_only, variant.single_pixels,
+      variant.wide_rows};
+  const auto found = programs_.find(key);
+  if (found != programs_.end()) return found->second;
+  GlProgram program(device_, name_of(kernel), {{GL_COMPUTE_SHADER, source_of(kernel, variant)}});
+  return programs_.emplace(key, std::move(program)).first->second;
+}
+
+void Kernels::dispatch(const GlProgram& program, std::size_t groups) const {
+  if (groups == 0) return;
+  constexpr std::size_t kMostGroups = 65'535;  // that OpenGL promises, in each dimension
+  const GlFunctions& gl = device_.gl();
+  const std::size_t rows = (groups + kMostGroups - 1) / kMostGroups;
+  gl.UseProgram(program.name());
+  gl.DispatchCompute(static_cast<GLuint>(std::min(groups, kMostGroups)), static_cast<GLuint>(rows),
+                     1);
+  gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+void Kernels::bind(Binding binding, const GlBuffer& buffer) const {
+  device_.gl().BindBufferBase(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(binding),
+                              buffer.name());
+}
+
+}  // namespace rangezip

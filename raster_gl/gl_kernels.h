@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <tuple>
+
+#include "raster_gl/gl_buffer.h"
+#include "raster_gl/gl_program.h"
+#include "raster_gl/shader_text.h"
+
+namespace rangezip {
+
+/// The buffers of the compute kernels: X(binding, name in GLSL).
+#define RANGEZIP_GL_BINDINGS(X)                                                                   \
+  X(positions, POSITIONS) /* 3 floats a position */                                               \
+  X(rows, ROWS)           /* R1: 4 floats a row: x, y, z, w, then one a clip plane */             \
+  X(snapped, SNAPPED)     /* 3 integers a position */                                             \
+  X(corners, CORNERS)     /* 3 indices a triangle */                                              \
+  X(ids, IDS)             /* one a triangle, for pieces */                                        \
+  X(rejected, REJECTED)   /* triangles with a rejected corner, in any order */                    \
+  X(tiles, TILES)         /* of large triangles: number of the triangle, number of the tile */    \
+  X(counters, COUNTERS)   /* see Counter */                                                       \
+  X(depths, DEPTHS)       /* one a pixel; 64-bit keys where depth and ID are drawn in one pass */ \
+  X(winners, WINNERS)     /* IDs, one a pixel */                                                  \
+  X(lower, LOWER)         /* band of depths, one a pixel */                                       \
+  X(upper, UPPER)                                                                                 \
+  X(reference, REFERENCE) /* R13, one a pixel */                                                  \
+  X(votes, VOTES)         /* one byte a point */                                                  \
+  X(sums, SUMS)           /* PixelMoments, one a pixel */                                         \
+  X(counts, COUNTS)       /* points summed, one a pixel */
+
+enum class Binding : GLuint {
+#define RANGEZIP_GL_BINDING(binding, name) binding,
+  RANGEZIP_GL_BINDINGS(RANGEZIP_GL_BINDING)
+#undef RANGEZIP_GL_BINDING
+};
+
+/// Numbers that the kernels count.
+enum class Counter : std::uint8_t {
+  rejected_points,     ///< by R3 or R4
+  rejected_triangles,  ///< with a corner that is rejected
+  tiles,               ///< that large triangles need, whether there was room or not
+  outside_triangles,   ///< that are not wholly inside of the viewport (hardware_text.h)
+  full_pixel,          ///< 1 + number of a pixel that has more points than R13 allows, or 0
+};
+inline constexpr std::size_t kCounters = 5;
+
+/// Most points that one pixel may sum (R13).
+inline constexpr std::uint32_t kMostPointsPerPixel = 1U << 19U;
+
+/// Invocations of a group: of kernels whose invocations take a point or a position, and of those
+/// that take a triangle or a row of a tile.
+inline constexpr std::size_t kPointGroup = 256;
+inline constexpr std::size_t kTriangleGroup = 64;
+[[nodiscard]] constexpr std::size_t groups_of(std::size_t invocations, std::size_t group) noexcept {
+  return (invocations + group - 1) / group;
+}
+
+/// The names above as GLSL sees them.
+[[nodiscard]] std::string kernel_definitions();
+
+/// A step of drawing or summing.
+enum class Kernel : std::uint8_t {
+  snap_positions,        ///< R2-R4, R11 for the corners of triangles
+  draw_points,           ///< R2-R5, R11, R12: snaps and plots
+  classify_triangles,    ///< R6: lists rejected triangles, and the tiles of large ones
+  draw_small_triangles,  ///< R6, R7: one invocation a triangle of up to 64 pixels
+  draw_tiles,            ///< R6, R7: 64 invocations a tile of 256 x 64 pixels
+  sum_points,            ///< R13
+  count_outside,         ///< triangles that are not wholly inside of the viewport
+};
+
+/// The compute programs, each compiled when it is first used.
+class Kernels {
+ public:
+  explicit Kernels(const GlDevice& device) : device_(device) {}
+
+  /// @throws BackendError if the driver refuses it
+  [[nodiscard]] const GlProgram& get(Kernel kernel, const ShaderVariant& variant);
+
+  /// Runs `groups` groups of a kernel's invocations, and has what comes after see what they wrote.
+  void dispatch(const GlProgram& program, std::size_t groups) const;
+
+  void bind(Binding binding, const GlBuffer& buffer) const;
+
+ private:
+  using Key = std::tuple<Kernel, DrawPass, bool, bool, bool, bool>;
+
+  const GlDevice& device_;
+  std::map<Key, GlProgram> programs_;
+};
+
+}  // namespace rangezip

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/raster/rasterizer.h"
+
+namespace rangezip {
+
+/// A rasterizer that passes on to one GlRasterizer a process: it compiles its shaders once, and
+/// nothing of one drawing may show in the next.
+/// @param name a context and perhaps a strategy: "osmesa", "egl:0 fixed_function"
+/// @throws BackendError if it cannot start: then tests fail
+[[nodiscard]] std::unique_ptr<Rasterizer> make_shared_gl(const std::string& name);
+
+}  // namespace rangezip
