@@ -11,6 +11,7 @@
 #include "apps/rangezip-compare/mesh_command.h"
 #include "apps/rangezip-compare/output_error.h"
 #include "apps/rangezip-compare/sample_command.h"
+#include "apps/rangezip-compare/stages_command.h"
 #include "apps/rangezip/backend.h"
 #include "apps/rangezip/exit_code.h"
 #include "apps/rangezip/values.h"
@@ -37,7 +38,7 @@ constexpr const char* kFooter =
     "Exit codes: 0 the mesh is clean, or nothing differs that must not; 1 wrong usage; 2 an input\n"
     "cannot be read; 3 an output cannot be written; 4 a backend is unknown or failed; 5 the mesh "
     "is\n"
-    "not clean, or images or drawings differ; 6 any other failure.\n"
+    "not clean, or images, drawings or stages differ; 6 any other failure.\n"
     "This program contains code of CGAL and is under the GNU General Public License, version 3 or\n"
     "later; rangezip's own code in it is BSD-3-Clause.";
 
@@ -147,6 +148,17 @@ CLI::App* add_sample(CLI::App& app, SampleCommand& command) {
   return sample;
 }
 
+CLI::App* add_stages(CLI::App& app, StagesCommand& command) {
+  CLI::App* stages = app.add_subcommand(
+      "stages", "Play a session with several backends and name the first stage that differs");
+  stages->add_option("SESSION", command.session, "From --session of `rangezip mesh` or `scan`")
+      ->required();
+  app::add_parsed(*stages, "--backends", command.backends, parse_backends,
+                  "The reference, then what is compared with it: " + app::known_backends(), "A,B")
+      ->required();
+  return stages;
+}
+
 /// The arguments in CLI11's order, the last first.
 std::vector<std::string> arguments_of(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> arguments(argv + 1, argv + argc);
@@ -172,10 +184,12 @@ int run(int argc, char** argv) {
   MeshCommand mesh;
   ImagesCommand images;
   SampleCommand sample;
+  StagesCommand stages;
   const CLI::App* judge_drawings = add_draw(app, draw);
   const CLI::App* judge_mesh = add_mesh(app, mesh);
   const CLI::App* compare_images = add_images(app, images);
   add_sample(app, sample);
+  const CLI::App* judge_stages = add_stages(app, stages);
 
   try {
     app.parse(arguments_of(app, argc, argv));
@@ -185,6 +199,7 @@ int run(int argc, char** argv) {
   if (judge_drawings->parsed()) return run_draw_command(draw, std::cout) ? good : bad;
   if (judge_mesh->parsed()) return run_mesh_command(mesh, std::cout) ? good : bad;
   if (compare_images->parsed()) return run_images_command(images, std::cout) ? good : bad;
+  if (judge_stages->parsed()) return run_stages_command(stages, std::cout) ? good : bad;
   run_sample_command(sample);
   return good;
 }

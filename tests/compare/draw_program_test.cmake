@@ -78,3 +78,14 @@ expect(1 "separated by commas" draw cube.obj --backends cpu,,cpu)
 expect(1 "backends is required" draw cube.obj)
 expect(1 "views" draw cube.obj --backends cpu,cpu --views 0)
 expect(1 "size" draw cube.obj --backends cpu,cpu --size 9000,1)
+
+# A session, stage by stage.
+expect(0 "command 0, scan.*framebuffers: [1-9].*mask: .*mesh: .*cpu:scalar against cpu: 1 commands, all"
+  stages s.json --backends cpu,cpu:scalar)
+expect(1 "must name two" stages s.json --backends cpu)
+expect(1 "SESSION is required" stages --backends cpu,cpu)
+expect(2 "nowhere.json" stages nowhere.json --backends cpu,cpu)
+expect(4 "no backend 'abacus'" stages s.json --backends cpu,abacus)
+file(WRITE ${SCRATCH}/wrong.json [[{"version": 1, "inputs": [{"path": "cube.obj"}],
+  "commands": [{"command": "undo"}]}]])
+expect(2 "wrong.json: /commands/0: " stages wrong.json --backends cpu,cpu)
