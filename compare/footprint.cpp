@@ -104,31 +104,30 @@ std::int64_t floor_of(Wide dividend, Wide divisor) {
   return static_cast<std::int64_t>(dividend % divisor < 0 ? quotient - 1 : quotient);
 }
 
-/// Widens fit's depths by those of one piece of the triangle: R7, and what the tolerance adds.
-void add_depths(const Turned& t, const Place& s, const DrawingTolerance& tolerance, PixelFit& fit) {
+/// Depths that a piece of a triangle may have at `s`: R7, and what the tolerance adds.
+struct DepthRange {
+  std::int64_t nearest = 0;
+  std::int64_t farthest = 0;
+};
+DepthRange depths_of(const Turned& t, const Place& s, const DrawingTolerance& tolerance) {
   const auto [z_min, z_max] = std::minmax({t.corners[0].z, t.corners[1].z, t.corners[2].z});
-  std::int64_t nearest = std::int64_t{z_min} - tolerance.depth;
-  std::int64_t farthest = std::int64_t{z_max} + tolerance.depth;
-  if (t.area != 0) {
-    const Wide area = std::abs(t.area);
-    Wide height = 0;  // each times the area
-    Wide rise_x = 0;
-    Wide rise_y = 0;
-    for (std::size_t i = 0; i < t.edges.size(); ++i) {
-      const Wide z = std::int64_t{t.corners[i].z} - z_min;
-      height += z * t.edges[i].at(s);
-      rise_x -= z * t.edges[i].dy;
-      rise_y += z * t.edges[i].dx;
-    }
-    const Wide rise = (rise_x < 0 ? -rise_x : rise_x) + (rise_y < 0 ? -rise_y : rise_y);
-    const std::int64_t depth = z_min + floor_of(height, area);
-    const std::int64_t allowance =
-        tolerance.depth - floor_of(-rise * tolerance.slope, area);  // rounded up
-    nearest = std::max(nearest, depth - allowance);
-    farthest = std::min(farthest, depth + allowance);
+  if (t.area == 0) return {z_min - tolerance.depth, z_max + tolerance.depth};
+  const Wide area = std::abs(t.area);
+  Wide height = 0;  // each times the area
+  Wide rise_x = 0;
+  Wide rise_y = 0;
+  for (std::size_t i = 0; i < t.edges.size(); ++i) {
+    const Wide z = std::int64_t{t.corners[i].z} - z_min;
+    height += z * t.edges[i].at(s);
+    rise_x -= z * t.edges[i].dy;
+    rise_y += z * t.edges[i].dx;
   }
-  fit.nearest = fit.may_cover ? std::min(fit.nearest, nearest) : nearest;
-  fit.farthest = fit.may_cover ? std::max(fit.farthest, farthest) : farthest;
+  const Wide rise = (rise_x < 0 ? -rise_x : rise_x) + (rise_y < 0 ? -rise_y : rise_y);
+  const std::int64_t depth = z_min + floor_of(height, area);
+  const std::int64_t allowance =
+      tolerance.depth - floor_of(-rise * tolerance.slope, area);  // rounded up
+  return {std::max<std::int64_t>(depth, z_min) - allowance,
+          std::min<std::int64_t>(depth, z_max) + allowance};
 }
 
 /// The pieces of a triangle make up a convex polygon, so it holds a square if it holds its corners.
@@ -154,7 +153,9 @@ PixelFit fit_of_triangle(const SnappedPrimitive& triangle, Pixel pixel,
   for (const SnappedTriangle& piece : triangle.pieces) {
     const Turned turned(piece);
     if (!may_cover(turned, center, triangle.facing, tolerance.edge)) continue;
-    add_depths(turned, center, tolerance, fit);
+    const DepthRange depths = depths_of(turned, center, tolerance);
+    fit.nearest = fit.may_cover ? std::min(fit.nearest, depths.nearest) : depths.nearest;
+    fit.farthest = fit.may_cover ? std::max(fit.farthest, depths.farthest) : depths.farthest;
     fit.may_cover = true;
   }
   fit.must_cover =

@@ -76,12 +76,12 @@ struct PixelFit {
 };
 
 /// Triangles: each corner moved by up to `edge` in x and in y. The pixel may be covered if a
-/// triangle so moved has its centre, which is where the centre lies in the sum of triangle and
-/// square
-/// [-edge, edge]^2; it must be if the square around its centre lies in the triangle. With 0 both
-/// are R6, ties included. The moved triangle has at the centre the depth that the plane of the
-/// given one has within that square, and one between the depths of its corners. Points: the same
-/// for R5. Clip planes are those of R11, without a tolerance.
+/// triangle so moved has its centre, that is if the centre lies in the sum of the triangle and the
+/// square [-edge, edge]^2; it must be if that square around its centre lies in the triangle. With 0
+/// both are R6, ties included. The depth is that of the triangle's plane somewhere in the square
+/// [-slope, slope]^2 around the centre. It may lie past the depths of the corners by as much as it
+/// changes there, since drivers round edges and planes apart.
+/// Points: the same for R5. Clip planes are those of R11, without a tolerance.
 [[nodiscard]] PixelFit fit_of(const SnappedPrimitive& primitive, Pixel pixel,
                               const DrawingTolerance& tolerance);
 

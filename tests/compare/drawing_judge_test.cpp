@@ -192,6 +192,24 @@ TEST_CASE("a square of a point may begin a pixel later only if its centre is nea
   CHECK(verdict.counts.of(Cause::unexplained) == 2);
 }
 
+TEST_CASE("the depth of a steep triangle may differ by what it changes within the tolerance") {
+  scenes::SceneBuilder builder = scenes::lattice_builder(kExtent);
+  // 10 units for each 1/256 px to the right.
+  builder.add_triangles({{0, 0, 1000}, {4096, 0, 1000 + 40960}, {0, 4096, 1000}}, {{0, 1, 2}});
+  const RasterScene scene = builder.take();
+  const Framebuffer drawn = CpuRasterizer("scalar").render(scene.view, scene.items);
+  REQUIRE(drawn.depth[{2, 2}] == 1000 + 10 * (2 * 256 + 128));
+  Framebuffer candidate = drawn;
+  candidate.depth[{2, 2}] += 30 + 16;
+  candidate.depth[{3, 2}] -= 30 + 16;
+  candidate.depth[{4, 2}] += 30 + 17;
+  candidate.depth[{5, 2}] -= 30 + 17;
+  const DrawingVerdict verdict = judge_drawing(scene.view, scene.items, drawn, candidate, kDriver);
+  CHECK(verdict.counts.of(Cause::depth_rounding) == 2);
+  CHECK(verdict.counts.of(Cause::unexplained) == 2);
+  CHECK(verdict.first_unexplained->pixel == Pixel{4, 2});
+}
+
 TEST_CASE("every injected fault is seen and unexplained without a tolerance") {
   for (const WrongRasterizer& fault : drawing_faults(make_cpu)) {
     CAPTURE(fault.name);
