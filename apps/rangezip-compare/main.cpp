@@ -9,7 +9,6 @@
 #include "apps/rangezip-compare/draw_command.h"
 #include "apps/rangezip-compare/images_command.h"
 #include "apps/rangezip-compare/mesh_command.h"
-#include "apps/rangezip-compare/output_error.h"
 #include "apps/rangezip-compare/sample_command.h"
 #include "apps/rangezip-compare/stages_command.h"
 #include "apps/rangezip/backend.h"
@@ -213,9 +212,6 @@ int main(int argc, char** argv) {
     std::cerr << "rangezip-compare: " << error.what() << '\n';
     return usage;
   } catch (const app::OutputError& error) {
-    std::cerr << "rangezip-compare: " << error.what() << '\n';
-    return bad_output;
-  } catch (const OutputError& error) {
     std::cerr << "rangezip-compare: " << error.what() << '\n';
     return bad_output;
   } catch (const BackendError& error) {
