@@ -29,7 +29,7 @@ set(may_include_raster_cpu core/base core/view core/raster)
 set(may_include_raster_gl core/base core/view core/raster)
 set(may_include_compare ${all_of_core})
 set(may_include_apps/rangezip ${all_of_core} raster_cpu raster_gl)
-set(may_include_apps/rangezip-compare ${all_of_core} compare)
+set(may_include_apps/rangezip-compare ${all_of_core} compare apps/rangezip)
 
 set(violations "")
 

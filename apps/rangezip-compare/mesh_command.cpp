@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/rangezip-compare/output_error.h"
+#include "apps/rangezip/exit_code.h"
 #include "compare/mesh_distance.h"
 #include "compare/mesh_judge.h"
 #include "core/base/error.h"
@@ -86,7 +86,7 @@ void write_json(const std::filesystem::path& path, const Json& json) {
   std::ofstream file(path);
   file << json.dump(2) << '\n';
   file.close();
-  if (!file) throw OutputError(path.string() + ": the report cannot be written in full");
+  if (!file) throw app::OutputError(path.string() + ": the report cannot be written in full");
 }
 
 struct Cloud {

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <fstream>
 
-#include "apps/rangezip-compare/output_error.h"
+#include "apps/rangezip/exit_code.h"
 #include "compare/mesh_distance.h"
 #include "core/io/mesh_file.h"
 
@@ -32,7 +32,8 @@ void run_sample_command(const SampleCommand& command) {
     write_number(file, p.z, '\n');
   }
   file.close();
-  if (!file) throw OutputError(command.cloud.string() + ": the cloud cannot be written in full");
+  if (!file)
+    throw app::OutputError(command.cloud.string() + ": the cloud cannot be written in full");
 }
 
 }  // namespace rangezip::compare

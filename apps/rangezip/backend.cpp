@@ -17,7 +17,7 @@ namespace {
 
 #ifdef RANGEZIP_WITH_GL
 
-constexpr const char* kKnown = "cpu, gl, gl:osmesa, gl:egl, gl:egl:N, gl:egl:surfaceless";
+constexpr const char* kKnownGl = "gl, gl:osmesa, gl:egl, gl:egl:N, gl:egl:surfaceless";
 
 std::unique_ptr<Rasterizer> make_gl_rasterizer(const std::string& context) {
   // Mesa asks when its first context starts.
@@ -35,7 +35,7 @@ std::vector<std::string> gl_backends() {
 
 #else
 
-constexpr const char* kKnown = "cpu (this program was built without OpenGL)";
+constexpr const char* kKnownGl = "no gl (this program was built without OpenGL)";
 
 std::unique_ptr<Rasterizer> make_gl_rasterizer(const std::string& /*context*/) {
   throw BackendError("this program was built without OpenGL (RANGEZIP_WITH_GL=OFF); known: cpu");
@@ -55,15 +55,30 @@ BackendStatus try_backend(const std::string& name) {
   }
 }
 
+constexpr std::string_view kCpuWith = "cpu:";
+
+/// cpu:NAME, with one set of vector instructions.
+std::unique_ptr<Rasterizer> make_cpu(const std::string& name) {
+  try {
+    return std::make_unique<CpuRasterizer>(std::string_view(name).substr(kCpuWith.size()));
+  } catch (const InvalidArgument&) {
+    throw BackendError("there is no backend '" + name + "'; known: " + known_backends());
+  }
+}
+
 }  // namespace
 
 std::string known_backends() {
-  return kKnown;
+  std::string names = "cpu";
+  for (const std::string& instructions : cpu_instructions())
+    names += ", " + std::string(kCpuWith) + instructions;
+  return names + ", " + kKnownGl;
 }
 
 std::unique_ptr<Rasterizer> make_rasterizer(const std::string& name) {
   constexpr std::string_view kContextPrefix = "gl:";
   if (name == "cpu") return std::make_unique<CpuRasterizer>();
+  if (name.starts_with(kCpuWith)) return make_cpu(name);
   if (name == "gl") return make_gl_rasterizer("");
   if (name.size() > kContextPrefix.size() && name.starts_with(kContextPrefix)) {
     return make_gl_rasterizer(name.substr(kContextPrefix.size()));

@@ -9,6 +9,7 @@
 #include "apps/rangezip/commands.h"
 #include "apps/rangezip/inputs.h"
 #include "apps/rangezip/outputs.h"
+#include "apps/rangezip/session_start.h"
 #include "apps/rangezip/verify.h"
 #include "core/base/parallel.h"
 #include "core/io/mesh_file.h"
@@ -25,25 +26,6 @@ struct PlayOptions {
   MeshFileOptions file;
   CommonOptions common;
 };
-
-/// What the session was recorded on. A session that only works on its mesh has no inputs.
-Scene read_session_scene(const PlayOptions& options, const SessionFile& file, Console& console) {
-  if (file.inputs.empty() && file.initial_mesh) return {};
-  if (file.inputs.empty()) {
-    throw IoError(options.session.string() + ": /inputs: must not be empty without initial_mesh");
-  }
-  std::vector<std::filesystem::path> paths;
-  for (const SessionInput& input : file.inputs)
-    paths.push_back(input.path);
-  return read_inputs(paths, console).scene;
-}
-
-void check_count(const PlayOptions& options, const char* name, std::optional<std::size_t> recorded,
-                 std::size_t count) {
-  if (!recorded || *recorded == count) return;
-  throw IoError(options.session.string() + ": /" + name + ": the inputs must have " +
-                std::to_string(*recorded) + ", got " + std::to_string(count));
-}
 
 /// The n-th of so many equal parts of the bar.
 Progress part_of(const Progress& whole, std::size_t n, std::size_t count) {
@@ -78,19 +60,12 @@ void play(const PlayOptions& options, const Context& context) {
   outputs.add("-o", options.output, {"ply", "obj", "off", "stl"});
   Console console(options.common.quiet, context.stop);
   const SessionFile file = read_session(options.session);
-  check_session_inputs(file);
-  Scene scene = read_session_scene(options, file, console);
-  check_count(options, "points", file.points, scene.point_count());
-  check_count(options, "triangles", file.triangles, scene.triangle_count());
-  TriangleMesh initial;
-  if (file.initial_mesh) {
-    initial = read_mesh(file.initial_mesh->path);
-    check_given_mesh(initial, file.initial_mesh->path);
-  }
+  SessionStart start = read_session_start(
+      options.session, file, [&](const auto& paths) { return read_inputs(paths, console).scene; });
 
   SessionOptions session_options;
   if (!takes_back(file)) session_options.history_bytes = 0;
-  Session session(std::move(scene), std::move(initial), session_options);
+  Session session(std::move(start.scene), std::move(start.mesh), session_options);
   const Progress progress =
       console.start_task("playing", static_cast<double>(file.commands.size()), "commands");
   play_commands(session, file, options, *rasterizer, progress);

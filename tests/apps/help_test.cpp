@@ -97,3 +97,17 @@ TEST_CASE("a wrong command line is refused with exit code 1 and the reason", "[a
   }
   CHECK(folder.count() == 1);
 }
+
+TEST_CASE("the CPU's rasterizer can be had with one set of vector instructions", "[apps]") {
+  const TemporaryFolder folder;
+  const std::string cloud = folder.store("cloud.xyz", "0 0 0\n1 0 0\n0 1 0\n").string();
+  const auto scan = [&](const std::string& backend, const std::string& ids) {
+    return run({"scan", cloud, "--ids", folder / ids, "--size", "16,16", "--backend", backend});
+  };
+  CHECK(scan("cpu", "widest.png").code == 0);
+  CHECK(scan("cpu:scalar", "scalar.png").code == 0);
+  CHECK(load(folder / "scalar.png") == load(folder / "widest.png"));
+  const RunResult unknown = scan("cpu:abacus", "no.png");
+  CHECK(unknown.code == 4);
+  CHECK_THAT(unknown.err, Contains("there is no backend 'cpu:abacus'; known: cpu"));
+}

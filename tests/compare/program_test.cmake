@@ -2,18 +2,9 @@
 #   cmake -D PROGRAM=<rangezip-compare> -D MAKE_IMAGES=<make_test_images> -D SCRATCH=<folder>
 #     -P program_test.cmake
 cmake_minimum_required(VERSION 3.25)
+include(${CMAKE_CURRENT_LIST_DIR}/expect.cmake)
 file(REMOVE_RECURSE ${SCRATCH})
 file(MAKE_DIRECTORY ${SCRATCH})
-
-# expect(<exit code> <pattern in what it prints> <arguments>...)
-function(expect code pattern)
-  execute_process(COMMAND ${PROGRAM} ${ARGN} WORKING_DIRECTORY ${SCRATCH}
-    RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE err)
-  if(NOT result EQUAL code OR NOT "${out}${err}" MATCHES "${pattern}")
-    message(SEND_ERROR "rangezip-compare ${ARGN}: expected exit code ${code} and '${pattern}', "
-      "got ${result} and:\n${out}${err}")
-  endif()
-endfunction()
 
 set(corners "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n")
 file(WRITE ${SCRATCH}/tetrahedron.obj "${corners}f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")

@@ -1,0 +1,91 @@
+# `rangezip-compare draw` and `stages` as a user runs them. Run by CTest:
+#   cmake -D PROGRAM=<rangezip-compare> -D RANGEZIP=<rangezip> -D SCRATCH=<folder>
+#     -P draw_program_test.cmake
+cmake_minimum_required(VERSION 3.25)
+include(${CMAKE_CURRENT_LIST_DIR}/expect.cmake)
+file(REMOVE_RECURSE ${SCRATCH})
+file(MAKE_DIRECTORY ${SCRATCH}/images)
+
+# A cube and the same one with its side x = 1 moved to x = 1.1.
+function(write_cube name x)
+  file(WRITE ${SCRATCH}/${name}
+    "v 0 0 0\nv ${x} 0 0\nv ${x} 1 0\nv 0 1 0\nv 0 0 1\nv ${x} 0 1\nv ${x} 1 1\nv 0 1 1\n"
+    "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n")
+endfunction()
+write_cube(cube.obj 1)
+write_cube(longer.obj 1.1)
+
+# Exact backends draw the same; a command is 'draw' unless it says otherwise.
+expect(0 "cpu:scalar .* against cpu .*exact: 5 views, 20480 pixels, [1-9][0-9]* covered, identical"
+  draw cube.obj --views 5 --size 64,64 --backends cpu,cpu:scalar --json report.json --images images)
+expect(0 "6 views, 30000 pixels" cube.obj --size 100,50 --backends cpu,cpu:scalar)
+expect(0 "6 views, 30000 pixels" --backends cpu,cpu:scalar --size 100,50 cube.obj longer.obj)
+file(READ ${SCRATCH}/report.json report)
+string(JSON covered GET "${report}" candidates 0 total covered)
+string(JSON view_covered GET "${report}" candidates 0 views 4 covered)
+string(JSON width GET "${report}" views 4 extent width)
+string(JSON unexplained GET "${report}" candidates 0 total unexplained)
+string(JSON tolerance TYPE "${report}" candidates 0 tolerance)
+if(covered LESS view_covered OR view_covered EQUAL 0 OR NOT width EQUAL 64 OR NOT unexplained EQUAL 0
+    OR NOT tolerance STREQUAL "NULL")
+  message(SEND_ERROR "report.json: ${report}")
+endif()
+file(GLOB pictures ${SCRATCH}/images/*)
+if(pictures)
+  message(SEND_ERROR "pictures of views that do not differ: ${pictures}")
+endif()
+
+# The drawing of another program: what `rangezip scan` drew is what is drawn here.
+execute_process(COMMAND ${RANGEZIP} scan cube.obj --depth d.pfm --ids i.png --session s.json -q
+  --size 64,64 --direction 1,2,3 --perspective 40
+  WORKING_DIRECTORY ${SCRATCH} COMMAND_ERROR_IS_FATAL ANY)
+set(files --view-of s.json --depth d.pfm --ids i.png)
+expect(0 "files .*: 1 view, 4096 pixels, .*identical"
+  draw cube.obj --backends cpu ${files} --tolerance 0,0)
+# What was drawn of another body is no rounding: red pixels, and the place of the first.
+expect(5 "view 0, files: .*coverage.*[1-9][0-9]* unexplained.*first: pixel .*reference: ID .*triangle"
+  draw longer.obj --backends cpu ${files} --images images --json differs.json)
+if(NOT EXISTS ${SCRATCH}/images/view-00-files.png)
+  message(SEND_ERROR "no picture of the view that differs")
+endif()
+file(READ ${SCRATCH}/differs.json report)
+string(JSON cause GET "${report}" candidates 0 views 0 first_unexplained cause)
+string(JSON good GET "${report}" candidates 0 good)
+string(JSON edge GET "${report}" candidates 0 tolerance edge)
+string(JSON corners LENGTH "${report}" candidates 0 views 0 first_unexplained reference triangles 0)
+if(NOT cause STREQUAL "unexplained" OR good OR NOT edge EQUAL 3 OR NOT corners EQUAL 3)
+  message(SEND_ERROR "differs.json: ${report}")
+endif()
+
+expect(4 "no backend 'abacus'; known: cpu, " draw cube.obj --backends cpu,abacus)
+expect(4 "no backend 'cpu:abacus'; known: cpu, " draw cube.obj --backends cpu:abacus,cpu)
+expect(2 "nowhere.obj" nowhere.obj --backends cpu,cpu)
+expect(2 "d.pfm.*cannot be opened|i.png" draw cube.obj --backends cpu --view-of s.json --depth i.png
+  --ids i.png)
+file(WRITE ${SCRATCH}/no_scan.json [[{"version": 1, "inputs": [{"path": "cube.obj"}],
+  "commands": [{"command": "smooth"}]}]])
+expect(2 "no_scan.json: /commands: must hold a scan" draw cube.obj --backends cpu,cpu
+  --view-of no_scan.json)
+expect(3 "no such folder" draw cube.obj --backends cpu,cpu --images nowhere)
+expect(3 "there is no folder nowhere" draw cube.obj --backends cpu,cpu --json nowhere/r.json)
+expect(1 "nothing to compare with" draw cube.obj --backends cpu)
+expect(1 "belong together" draw cube.obj --backends cpu --view-of s.json --ids i.png)
+expect(1 "need --view-of" draw cube.obj --backends cpu --depth d.pfm --ids i.png)
+expect(1 "excludes" draw cube.obj --backends cpu,cpu --view-of s.json --views 3)
+expect(1 "two whole numbers" draw cube.obj --backends cpu ${files} --tolerance 3)
+expect(1 "two whole numbers" draw cube.obj --backends cpu ${files} --tolerance=-1,2)
+expect(1 "separated by commas" draw cube.obj --backends cpu,,cpu)
+expect(1 "backends is required" draw cube.obj)
+expect(1 "views" draw cube.obj --backends cpu,cpu --views 0)
+expect(1 "size" draw cube.obj --backends cpu,cpu --size 9000,1)
+
+# A session, stage by stage.
+expect(0 "command 0, scan.*framebuffers: [1-9].*mask: .*mesh: .*cpu:scalar against cpu: 1 commands, all"
+  stages s.json --backends cpu,cpu:scalar)
+expect(1 "must name two" stages s.json --backends cpu)
+expect(1 "SESSION is required" stages --backends cpu,cpu)
+expect(2 "nowhere.json" stages nowhere.json --backends cpu,cpu)
+expect(4 "no backend 'abacus'" stages s.json --backends cpu,abacus)
+file(WRITE ${SCRATCH}/wrong.json [[{"version": 1, "inputs": [{"path": "cube.obj"}],
+  "commands": [{"command": "undo"}]}]])
+expect(2 "wrong.json: /commands/0: " stages wrong.json --backends cpu,cpu)
