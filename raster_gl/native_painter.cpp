@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t kMostClipPlanes = 8;
 
-/// The view's map to the window, in OpenGL's clip coordinates: -w .. w in x, y and z.
+}  // namespace
+
 glm::mat4 clip_from_item(const View& view, const Mat4& world_from_item) {
   Mat4 clip_from_window{1.0};
   clip_from_window[0][0] = 2.0 / view.extent().width;
@@ -22,8 +23,6 @@ glm::mat4 clip_from_item(const View& view, const Mat4& world_from_item) {
   clip_from_window[3] = {-1.0, -1.0, -1.0, 1.0};
   return glm::mat4(clip_from_window * view.homogeneous_window_from_world() * world_from_item);
 }
-
-}  // namespace
 
 NativePainter::NativePainter(const ComputeTools& tools)
     : tools_(tools),

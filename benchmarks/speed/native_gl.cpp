@@ -10,6 +10,7 @@
 #include "core/base/grid.h"
 #include "raster_gl/gl_functions.h"
 #include "raster_gl/gl_objects.h"
+#include "raster_gl/native_painter.h"
 #include "raster_gl/osmesa_context.h"
 
 namespace rangezip::benchmark {
@@ -41,16 +42,6 @@ void main() { id = uint(gl_PrimitiveID); }
 std::unique_ptr<GlContext> make_context_without_threads() {
   setenv("LP_NUM_THREADS", "0", 1);
   return make_osmesa_context();
-}
-
-/// The view's map to the window, in OpenGL's clip coordinates: -w .. w in x, y and z.
-glm::mat4 clip_from_item(const View& view, const Mat4& world_from_item) {
-  Mat4 clip_from_window{1.0};
-  clip_from_window[0][0] = 2.0 / view.extent().width;
-  clip_from_window[1][1] = 2.0 / view.extent().height;
-  clip_from_window[2][2] = 2.0;
-  clip_from_window[3] = {-1.0, -1.0, -1.0, 1.0};
-  return glm::mat4(clip_from_window * view.homogeneous_window_from_world() * world_from_item);
 }
 
 template <class T>
