@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <numeric>
 
 #include "core/base/parallel.h"
@@ -57,6 +58,27 @@ std::size_t snap_in_parallel(const RowTransform& rows, std::span<const Vec3f> po
   return std::reduce(rejected.begin(), rejected.end());
 }
 
+constexpr std::size_t kBlock = 512;  ///< pixels whose keys stay in the first-level cache
+
+/// Calls work(first pixel, number of pixels) for all blocks of an image, by several threads.
+template <class Work>
+void for_each_block(std::size_t pixels, const Work& work) {
+  constexpr std::size_t kGrain = std::size_t{1} << 16;
+  parallel_for(pixels, kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t at = begin; at < end; at += kBlock)
+      work(at, std::min(kBlock, end - at));
+  });
+}
+
+/// Keeps the smaller key of every pixel in `onto`, and empties those of the layer, from `at` on.
+/// Where nothing was drawn, as on most of the layer of a part of a mesh, it only looks.
+void merge_and_empty(std::span<PixelKey> onto, KeyLayer& layer, std::size_t at) {
+  const std::span<PixelKey> from = std::span(layer.keys).subspan(at, onto.size());
+  if (std::reduce(from.begin(), from.end(), kEmptyPixel, std::bit_and<>()) == kEmptyPixel) return;
+  merge_keys(onto, from);
+  std::ranges::fill(from, kEmptyPixel);
+}
+
 }  // namespace
 
 ScenePainter::ScenePainter(const View& view, const DepthBand* depths, const SimdKernels* kernels,
@@ -97,7 +119,7 @@ DrawReport ScenePainter::draw(std::span<const DrawItem> items, Framebuffer& out)
       layered += primitive_count(*step.item);
     }
   }
-  if (layered > 0 || largest == 0) clear_layers(layer_count(layered, view_.extent()));
+  if (layered > 0 || largest == 0) begin_layers(layer_count(layered, view_.extent()));
   for (const Step& step : steps) {
     if (!step.is_binned) draw_layered(step);
   }
@@ -121,47 +143,51 @@ void ScenePainter::draw_layered(const Step& step) {
   }
 }
 
-void ScenePainter::clear_layers(std::size_t count) {
+void ScenePainter::begin_layers(std::size_t count) {
   layers_ = count;
   auto& layers = memory_.layers;
   layers.resize(std::max(layers.size(), count));
+  const std::size_t keys = view_.extent().count() + kKeyPadding;
   parallel_for(count, 1, [&](std::size_t first, std::size_t last) {
-    for (std::size_t layer = first; layer < last; ++layer)
-      layers[layer].assign(view_.extent().count() + kKeyPadding, kEmptyPixel);
+    for (KeyLayer& layer : std::span(layers).subspan(first, last - first)) {
+      if (!layer.is_empty) layer.keys.clear();
+      layer.keys.resize(std::max(layer.keys.size(), keys), kEmptyPixel);
+      layer.is_empty = false;
+    }
   });
 }
 
 /// All layers as one; empty if there is none.
 std::span<const PixelKey> ScenePainter::merge_layers() {
   if (layers_ == 0) return {};
-  constexpr std::size_t kGrain = std::size_t{1} << 16;
-  auto& layers = memory_.layers;
-  parallel_for(view_.extent().count(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t layer = 1; layer < layers_; ++layer) {
-      merge_keys(std::span(layers[0]).subspan(begin, end - begin),
-                 std::span(layers[layer]).subspan(begin, end - begin));
-    }
+  const std::span<PixelKey> merged(memory_.layers[0].keys.data(), view_.extent().count());
+  for_each_block(merged.size(), [&](std::size_t at, std::size_t count) {
+    for (std::size_t layer = 1; layer < layers_; ++layer)
+      merge_and_empty(merged.subspan(at, count), memory_.layers[layer], at);
   });
+  end_layers(1);
   layers_ = 1;
-  return std::span(layers[0]).first(view_.extent().count());
+  return merged;
 }
 
-/// merge_layers() and unpack_keys() in one, without writing the layers back.
+/// merge_layers() and unpack_keys() in one, after which the layers are empty.
 void ScenePainter::unpack_layers(Framebuffer& out) {
-  constexpr std::size_t kGrain = std::size_t{1} << 16;
-  constexpr std::size_t kBlock = 512;  // stays in the first-level cache
   set_extent(out, view_.extent());
-  parallel_for(view_.extent().count(), kGrain, [&](std::size_t begin, std::size_t end) {
-    std::array<PixelKey, kBlock> merged;
-    for (std::size_t at = begin; at < end; at += kBlock) {
-      const std::size_t count = std::min(kBlock, end - at);
-      std::copy_n(&memory_.layers[0][at], count, merged.begin());
-      for (std::size_t layer = 1; layer < layers_; ++layer)
-        merge_keys(std::span(merged).first(count),
-                   std::span(memory_.layers[layer]).subspan(at, count));
-      unpack_into_image(std::span(merged).first(count), at, kernels_, out);
-    }
+  for_each_block(view_.extent().count(), [&](std::size_t at, std::size_t count) {
+    std::array<PixelKey, kBlock> block;
+    const std::span<PixelKey> merged = std::span(block).first(count);
+    std::ranges::fill(merged, kEmptyPixel);
+    for (std::size_t layer = 0; layer < layers_; ++layer)
+      merge_and_empty(merged, memory_.layers[layer], at);
+    unpack_into_image(merged, at, kernels_, out);
   });
+  end_layers(0);
+}
+
+/// The layers from `first` on are empty again.
+void ScenePainter::end_layers(std::size_t first) {
+  for (KeyLayer& layer : std::span(memory_.layers).subspan(first, layers_ - first))
+    layer.is_empty = true;
 }
 
 /// Draws the k-th part of `count` primitives into the k-th layer. @return what was dropped
@@ -172,7 +198,7 @@ std::size_t ScenePainter::draw_parts(std::size_t count, const Draw& draw) {
     for (std::size_t layer = first; layer < last; ++layer) {
       const DrawTarget target{
           .extent = view_.extent(),
-          .keys = std::span(memory_.layers[layer]).first(view_.extent().count()),
+          .keys = std::span(memory_.layers[layer].keys).first(view_.extent().count()),
           .band = depths_};
       dropped[layer] = draw(count * layer / layers_, count * (layer + 1) / layers_, target);
     }
@@ -211,11 +237,8 @@ void ScenePainter::bin_points(const DrawPoints& points, const RowTransform& rows
 /// Draws what is in the bins into the first layer.
 void ScenePainter::flush_bins() {
   const std::span<const PixelKey> under = merge_layers();
-  auto& layers = memory_.layers;
-  layers.resize(std::max<std::size_t>(layers.size(), 1));
-  layers[0].resize(view_.extent().count() + kKeyPadding);
-  memory_.binned.draw(under, layers[0]);
-  layers_ = 1;
+  if (layers_ == 0) begin_layers(1);
+  memory_.binned.draw(under, memory_.layers[0].keys);
 }
 
 }  // namespace rangezip

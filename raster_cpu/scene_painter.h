@@ -10,9 +10,16 @@
 
 namespace rangezip {
 
+/// The image of one part of a scene, with kKeyPadding behind it. It is left empty by whoever reads
+/// it last: emptying what is in the cache costs less than to clear it before the next image.
+struct KeyLayer {
+  std::vector<PixelKey> keys;
+  bool is_empty = true;
+};
+
 /// Memory for drawing, kept from image to image.
 struct PainterMemory {
-  std::vector<std::vector<PixelKey>> layers;  ///< one image per part of the scene
+  std::vector<KeyLayer> layers;
   std::vector<SnappedPosition> snapped;
   BinnedPoints binned;
 };
@@ -33,9 +40,10 @@ class ScenePainter {
   struct Step;
 
   [[nodiscard]] std::vector<Step> plan(std::span<const DrawItem> items) const;
-  void clear_layers(std::size_t count);
+  void begin_layers(std::size_t count);
   [[nodiscard]] std::span<const PixelKey> merge_layers();
   void unpack_layers(Framebuffer& out);
+  void end_layers(std::size_t first);
   void draw_layered(const Step& step);
   void draw_points(const DrawPoints& points, const RowTransform& rows);
   void draw_triangles(const DrawTriangles& item, const RowTransform& rows);
