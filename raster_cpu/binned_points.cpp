@@ -56,10 +56,8 @@ void BinnedPoints::draw_bands(std::span<const PixelKey> under, const Store& stor
       Tile& tile = tiles_[part];
       for (int band = next++; band < layout_.count(); band = next++) {
         tile.load(layout_, band, under, depths_);
-        for (const PointBins& bins : bins_) {
-          for (const PointBins::Run& run : bins.runs(static_cast<std::size_t>(band)))
-            kernels_->draw_fragments(run, tile);
-        }
+        for (const PointBins& bins : bins_)
+          kernels_->draw_fragments(bins.runs(static_cast<std::size_t>(band)), tile);
         store(tile);
       }
     }

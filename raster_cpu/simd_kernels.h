@@ -49,7 +49,7 @@ struct SimdKernels {
   std::size_t (*bin_points)(const RowTransform& rows, std::span<const Vec3f> positions, int size,
                             const BandLayout& layout, PointBins& bins) = nullptr;
   /// R9 and R12: draws fragments that bin_points() made.
-  void (*draw_fragments)(const PointBins::Run& run, Tile& tile) = nullptr;
+  void (*draw_fragments)(std::span<const PointBins::Run> runs, Tile& tile) = nullptr;
   /// As unpack_keys(), for an image that the cache cannot hold: it is not read before it is
   /// written.
   void (*unpack_past_cache)(std::span<const PixelKey> keys, std::uint32_t* depth,

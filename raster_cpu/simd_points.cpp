@@ -180,10 +180,19 @@ PixelKey key_of(Fragment fragment, PrimitiveId first_id) {
   return make_key(depth_of(fragment), first_id + number_in_run(fragment));
 }
 
+/// Fragments to be fetched before they are needed: 16 cache lines.
+constexpr std::size_t kFetchAhead = 128;
+
+/// Where the next run begins, the hardware cannot know.
+void fetch_begin(std::span<const Fragment> fragments) {
+  constexpr std::size_t kLine = 64 / sizeof(Fragment);
+  for (std::size_t i = 0; i < std::min(kFetchAhead, fragments.size()); i += kLine)
+    hwy::Prefetch(&fragments[i]);
+}
+
 void lower_pixels(const PointBins::Run& run, PixelKey* keys) {
-  constexpr std::ptrdiff_t kAhead = 64;  // eight cache lines
   for (const Fragment& fragment : run.entries) {
-    hwy::Prefetch(&fragment + kAhead);
+    hwy::Prefetch(&fragment + kFetchAhead);
     PixelKey& key = keys[tile_pixel(fragment)];
     key = std::min(key, key_of(fragment, run.first_id));
   }
@@ -227,7 +236,7 @@ void lower_in_band(const PointBins::Run& run, PixelKey* keys, std::size_t stride
   }
 }
 
-void draw_fragments(const PointBins::Run& run, Tile& tile) {
+void draw_run(const PointBins::Run& run, Tile& tile) {
   PixelKey* const keys = tile.keys();
   const Tile::Depths depths = tile.depths();
   if (depths.lower != nullptr) return lower_in_band(run, keys, tile.stride(), depths);
@@ -243,6 +252,13 @@ void draw_fragments(const PointBins::Run& run, Tile& tile) {
       return lower_squares<4>(run, keys, tile.stride());
     default:
       return lower_squares<5>(run, keys, tile.stride());
+  }
+}
+
+void draw_fragments(std::span<const PointBins::Run> runs, Tile& tile) {
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (i + 1 < runs.size()) fetch_begin(runs[i + 1].entries);
+    draw_run(runs[i], tile);
   }
 }
 

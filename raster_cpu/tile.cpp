@@ -23,14 +23,16 @@ void Tile::load(const BandLayout& layout, int band, std::span<const PixelKey> im
   layout_ = layout;
   rows_ = layout.rows_of(band);
   is_banded_ = depths != nullptr;
-  keys_.assign(layout.tile_pixels(), kEmptyPixel);
-  const auto width = static_cast<std::size_t>(layout.extent.width);
+  keys_.resize(layout.tile_pixels());
+  PixelKey* at = keys_.data();
   if (!image.empty()) {
     for (int y = rows_.first; y <= rows_.last; ++y) {
       const TileRow row = tile_row(layout_, rows_, y);
-      std::copy_n(&image[row.in_image], width, &keys_[row.in_tile]);
+      std::fill(at, &keys_[row.in_tile], kEmptyPixel);
+      at = std::copy_n(&image[row.in_image], layout.extent.width, &keys_[row.in_tile]);
     }
   }
+  std::fill(at, keys_.data() + keys_.size(), kEmptyPixel);
   if (is_banded_) load_depths(*depths);
 }
 
