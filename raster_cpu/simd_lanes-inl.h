@@ -37,8 +37,9 @@ constexpr std::size_t kLanes = hn::MaxLanes(Floats());
 
 /// 0 <= v < end.
 HWY_INLINE Mask is_below(IntVec v, std::int32_t end) {
-  const Ints d;
-  return hn::And(hn::Gt(v, hn::Set(d, -1)), hn::Lt(v, hn::Set(d, end)));
+  const hn::RebindToUnsigned<Ints> d;  // where negative numbers are large
+  return hn::RebindMask(Ints(),
+                        hn::Lt(hn::BitCast(d, v), hn::Set(d, static_cast<std::uint32_t>(end))));
 }
 
 /// Fetches what comes some vectors after items[at], kLanes of which are read at once: the hardware

@@ -112,17 +112,19 @@ class PointBinner {
     const IntVec to_corner = hn::Set(d, kHalfPixel * (size_ - 1));
     const IntVec x = hn::ShiftRight<kSubpixelBits>(hn::Sub(s.x, to_corner));
     const IntVec y = hn::ShiftRight<kSubpixelBits>(hn::Sub(s.y, to_corner));
-    const IntVec beyond = hn::Set(d, -size_);
-    const IntVec width = hn::Set(d, layout_.extent.width);
-    const IntVec height = hn::Set(d, layout_.extent.height);
     Mask drawn = is_inside(rows_, p, s.valid);
-    drawn = hn::And(drawn, hn::And(hn::Gt(x, beyond), hn::Lt(x, width)));
-    drawn = hn::And(drawn, hn::And(hn::Gt(y, beyond), hn::Lt(y, height)));
+    const int hanging = kIsSingle ? 0 : size_ - 1;  // pixels that may lie outside of the image
+    const auto touches = [&](IntVec first, int size) {
+      return is_below(hn::Add(first, hn::Set(d, hanging)), size + hanging);
+    };
+    drawn = hn::And(drawn,
+                    hn::And(touches(x, layout_.extent.width), touches(y, layout_.extent.height)));
     drawn = hn::And(drawn, is_in_depth_range(s.z));
     const IntVec lower = band_of(kIsSingle ? y : hn::Max(y, hn::Zero(d)));
     append(lower, x, y, s.z, number, drawn);
     if constexpr (!kIsSingle) {
-      const IntVec top = hn::Min(hn::Add(y, hn::Set(d, size_ - 1)), hn::Sub(height, hn::Set(d, 1)));
+      const IntVec top =
+          hn::Min(hn::Add(y, hn::Set(d, size_ - 1)), hn::Set(d, layout_.extent.height - 1));
       const IntVec upper = band_of(top);
       append(upper, x, y, s.z, number, hn::And(drawn, hn::Ne(lower, upper)));
     }

@@ -52,6 +52,14 @@ HWY_INLINE hn::Mask<Floats> is_within(FloatVec v, FloatVec limit) {
   return hn::Le(hn::Abs(v), limit);
 }
 
+/// The nearest integer of |v| <= kGuardXY, ties to even; of anything else, some integer.
+HWY_INLINE IntVec nearest_in_guard(FloatVec v) {
+  // Where floats are a unit apart, their low bits are the nearest integer.
+  static_assert(kGuardXY <= 1 << 22);
+  const FloatVec unit_apart = hn::Set(Floats(), 0x1.8p23F);
+  return hn::Sub(hn::BitCast(Ints(), hn::Add(v, unit_apart)), hn::BitCast(Ints(), unit_apart));
+}
+
 /// R3.
 HWY_INLINE SnappedLanes snap_parallel(const RowTransform& rows, const Lanes& p) {
   const Floats d;
@@ -61,7 +69,8 @@ HWY_INLINE SnappedLanes snap_parallel(const RowTransform& rows, const Lanes& p) 
   const auto valid =
       hn::And(hn::And(is_within(x, max_xy), is_within(y, max_xy)), is_within(z, max_z));
   // NearestInt rounds ties to even in the default rounding mode.
-  return {hn::NearestInt(x), hn::NearestInt(y), hn::NearestInt(z), hn::RebindMask(Ints(), valid)};
+  return {nearest_in_guard(x), nearest_in_guard(y), hn::NearestInt(z),
+          hn::RebindMask(Ints(), valid)};
 }
 
 /// R4 for lanes in double: floor(v / w + 1/2) of the exact quotient, given 1 / w.
