@@ -209,20 +209,19 @@ TEST_CASE("a window's context works again after a context of another kind took i
   CHECK(application.has_stored(74));
 }
 
-TEST_CASE(
-    "drawing by kernels does not depend on the state that an application sets for its own "
-    "drawing") {
+TEST_CASE("kernels draw the same whatever state the application has set for its own drawing") {
   Application application;
   GlRasterizer rasterizer(borrow_context(application.lend_window()));
   REQUIRE(rasterizer.strategy() == GlStrategy::compute);
   application.make_current(application.window);
   application.gl<PFNGLSCISSORPROC>("glScissor")(0, 0, 1, 1);
-  for (const GLenum state : {GL_SCISSOR_TEST, GL_RASTERIZER_DISCARD, GL_STENCIL_TEST, GL_BLEND})
+  for (const GLenum state :
+       std::array<GLenum, 4>{GL_SCISSOR_TEST, GL_RASTERIZER_DISCARD, GL_STENCIL_TEST, GL_BLEND})
     application.gl<PFNGLENABLEPROC>("glEnable")(state);
   application.gl<PFNGLCOLORMASKPROC>("glColorMask")(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   application.gl<PFNGLPIXELSTOREIPROC>("glPixelStorei")(GL_PACK_ROW_LENGTH, 3);
   application.store(75);
-  for (const GLenum target : {GL_PIXEL_PACK_BUFFER, GL_PIXEL_UNPACK_BUFFER})
+  for (const GLenum target : std::array<GLenum, 2>{GL_PIXEL_PACK_BUFFER, GL_PIXEL_UNPACK_BUFFER})
     application.gl<PFNGLBINDBUFFERPROC>("glBindBuffer")(target, application.buffer_of(75));
   check_scenes(rasterizer, 14);
   CHECK(application.has_stored(75));
