@@ -58,18 +58,28 @@ StageVerdict compare_meshes(const char* name, const TriangleMesh& reference,
   return verdict;
 }
 
-StageVerdict compare_correspondences(const Correspondence& reference,
-                                     const Correspondence& candidate) {
-  StageVerdict verdict = compare_grids("correspondence", reference.face, candidate.face);
-  const StageVerdict behind = compare_grids("", reference.from_behind, candidate.from_behind);
-  verdict.compared += behind.compared;
-  verdict.different += behind.different;
-  if (verdict.first.empty()) verdict.first = behind.first;
-  return verdict;
+/// Two parts of one stage.
+StageVerdict together(StageVerdict first, const StageVerdict& second) {
+  first.compared += second.compared;
+  first.different += second.different;
+  if (first.first.empty()) first.first = second.first;
+  return first;
 }
 
-StageVerdict compare_patches(const Patch& reference, const Patch& candidate) {
-  StageVerdict verdict = compare_meshes("patch", reference.mesh, candidate.mesh);
+StageVerdict compare_framebuffers(const char* name, const Framebuffer& reference,
+                                  const Framebuffer& candidate) {
+  return together(compare_grids(name, reference.depth, candidate.depth),
+                  compare_grids(name, reference.id, candidate.id));
+}
+
+StageVerdict compare_correspondences(const char* name, const Correspondence& reference,
+                                     const Correspondence& candidate) {
+  return together(compare_grids(name, reference.face, candidate.face),
+                  compare_grids(name, reference.from_behind, candidate.from_behind));
+}
+
+StageVerdict compare_patches(const char* name, const Patch& reference, const Patch& candidate) {
+  StageVerdict verdict = compare_meshes(name, reference.mesh, candidate.mesh);
   compare_values(
       reference.pixels, candidate.pixels,
       [](std::size_t i) { return "pixel of vertex " + std::to_string(i); }, verdict);
@@ -87,19 +97,10 @@ StageVerdict verdict_on(const DrawingsRecord& record) {
   return verdict;
 }
 
-void add_scan(const Scan& reference, const Scan& candidate, CommandVerdict& verdict) {
-  auto& stages = verdict.stages;
-  stages.push_back(compare_grids("range image", reference.image.depth(), candidate.image.depth()));
-  stages.push_back(compare_grids("filled", reference.filled, candidate.filled));
-  stages.push_back(compare_grids("slopes", reference.slopes, candidate.slopes));
-  stages.push_back(compare_correspondences(reference.correspondence, candidate.correspondence));
-  stages.push_back(compare_grids("mask", reference.active, candidate.active));
-  stages.push_back(compare_patches(reference.patch, candidate.patch));
-}
-
-void apply(Session& session, const Command& command, Rasterizer& rasterizer, std::size_t number) {
+void apply(Session& session, const Command& command, Rasterizer& rasterizer, std::size_t number,
+           const Progress& progress) {
   try {
-    session.apply(command, rasterizer);
+    session.apply(command, rasterizer, progress);
   } catch (const InvalidArgument& error) {
     throw InvalidArgument("/commands/" + std::to_string(number) + ": " + error.what());
   }
@@ -115,22 +116,38 @@ const StageVerdict& CommandVerdict::first_difference() const {
   return *std::find_if_not(stages.begin(), stages.end(), std::mem_fn(&StageVerdict::identical));
 }
 
+std::vector<StageVerdict> judge_scans(const Scan& reference, const Scan& candidate) {
+  return {
+      compare_framebuffers("scene framebuffer", reference.scene_buffer, candidate.scene_buffer),
+      compare_grids("range image", reference.image.depth(), candidate.image.depth()),
+      compare_grids("filled", reference.filled, candidate.filled),
+      compare_grids("slopes", reference.slopes, candidate.slopes),
+      compare_correspondences("correspondence", reference.correspondence, candidate.correspondence),
+      compare_grids("mask", reference.active, candidate.active),
+      compare_patches("patch", reference.patch, candidate.patch)};
+}
+
+StageVerdict judge_meshes(const TriangleMesh& reference, const TriangleMesh& candidate) {
+  return compare_meshes("mesh", reference, candidate);
+}
+
 std::vector<CommandVerdict> judge_session(const Scene& scene, const TriangleMesh& initial,
                                           std::span<const Command> commands, Rasterizer& reference,
-                                          Rasterizer& candidate) {
+                                          Rasterizer& candidate, const Progress& progress) {
   CheckedRasterizer checked(reference, candidate);
   Session expected(scene, initial);
   Session found(scene, initial);
   std::vector<CommandVerdict> verdicts;
   for (std::size_t i = 0; i < commands.size(); ++i) {
-    apply(expected, commands[i], reference, i);
-    apply(found, commands[i], checked, i);
+    apply(expected, commands[i], reference, i, progress);
+    apply(found, commands[i], checked, i, progress);
     CommandVerdict& verdict = verdicts.emplace_back();
     verdict.stages.push_back(verdict_on(checked.take_record()));
     if (expected.last_scan() && found.last_scan()) {
-      add_scan(*expected.last_scan(), *found.last_scan(), verdict);
+      const auto of_scan = judge_scans(*expected.last_scan(), *found.last_scan());
+      verdict.stages.insert(verdict.stages.end(), of_scan.begin(), of_scan.end());
     }
-    verdict.stages.push_back(compare_meshes("mesh", *expected.mesh(), *found.mesh()));
+    verdict.stages.push_back(judge_meshes(*expected.mesh(), *found.mesh()));
     if (!verdict.identical()) break;
   }
   return verdicts;

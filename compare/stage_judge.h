@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/raster/rasterizer.h"
+#include "core/scan/scan.h"
 #include "core/scene/scene.h"
 #include "core/session/command.h"
 
@@ -22,9 +24,16 @@ struct StageVerdict {
   [[nodiscard]] bool identical() const noexcept { return different == 0; }
 };
 
-/// The stages of one command in the order in which the data flows: "framebuffers" (all drawings,
-/// also the sums), then for a scan "range image", "filled", "slopes", "correspondence", "mask",
-/// "patch", then "mesh".
+/// The products of one scan in the order in which the data flows: "scene framebuffer", "range
+/// image", "filled", "slopes", "correspondence", "mask", "patch".
+[[nodiscard]] std::vector<StageVerdict> judge_scans(const Scan& reference, const Scan& candidate);
+
+/// The stage "mesh": positions, faces and sources; what one side lacks differs.
+[[nodiscard]] StageVerdict judge_meshes(const TriangleMesh& reference,
+                                        const TriangleMesh& candidate);
+
+/// The stages of one command: "framebuffers" (all drawings, also the sums), then for a scan those
+/// of judge_scans(), then "mesh".
 struct CommandVerdict {
   std::vector<StageVerdict> stages;
 
@@ -39,10 +48,8 @@ struct CommandVerdict {
 /// difference begins. Each drawing of the candidate is compared with the reference's of the same
 /// arguments (CheckedRasterizer), which is drawn twice for that.
 /// @throws what Session::apply() throws; InvalidArgument then begins with "/commands/N: "
-[[nodiscard]] std::vector<CommandVerdict> judge_session(const Scene& scene,
-                                                        const TriangleMesh& initial,
-                                                        std::span<const Command> commands,
-                                                        Rasterizer& reference,
-                                                        Rasterizer& candidate);
+[[nodiscard]] std::vector<CommandVerdict> judge_session(
+    const Scene& scene, const TriangleMesh& initial, std::span<const Command> commands,
+    Rasterizer& reference, Rasterizer& candidate, const Progress& progress = {});
 
 }  // namespace rangezip::compare

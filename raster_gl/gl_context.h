@@ -32,7 +32,8 @@ class GlContext {
 
 /// Makes a context current on this thread for the life of this object, and then none. Contexts of
 /// two kinds in one process may share what "current" means, and then the one that was left current
-/// draws for the other without an error; so none is ever left current.
+/// draws for the other without an error; so none is ever left current, but for what an application
+/// had current itself (borrowed_context.h).
 class CurrentContext {
  public:
   /// @throws BackendError if the context cannot be made current.

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "apps/rangezip-compare/drawing_report.h"
+#include "apps/rangezip-compare/json_file.h"
 #include "apps/rangezip/backend.h"
 #include "apps/rangezip/exit_code.h"
 #include "apps/rangezip/outputs.h"
@@ -18,7 +19,6 @@
 #include "compare/drawing_judge.h"
 #include "compare/views_around.h"
 #include "core/base/error.h"
-#include "core/io/atomic_file.h"
 #include "core/io/image_file.h"
 #include "core/io/input_file.h"
 #include "core/io/session_file.h"
@@ -75,7 +75,7 @@ void check_options(const DrawCommand& command) {
     throw app::UsageError(
         "draw: nothing to compare with: give two --backends, or one and --depth and --ids");
   }
-  if (command.json) app::Outputs().add("--json", *command.json, {"json"});
+  if (command.json) check_json_place(*command.json);
   if (!command.images) return;
   if (!std::filesystem::is_directory(*command.images)) {
     throw app::OutputError("--images " + command.images->string() + ": there is no such folder");
@@ -201,11 +201,7 @@ void write_report(const std::filesystem::path& path, const DrawCommand& command,
   }
   for (const Judged& judged : candidates)
     json["candidates"].push_back(judged_json(judged));
-  app::write_output([&] {
-    AtomicFile file(path);
-    file.write(json.dump(2) + "\n");
-    file.commit();
-  });
+  write_json(path, json);
 }
 
 void print_total(std::ostream& out, const Judged& judged, const Painter& reference) {
@@ -224,13 +220,13 @@ void print_total(std::ostream& out, const Judged& judged, const Painter& referen
 
 }  // namespace
 
-bool run_draw_command(const DrawCommand& command, std::ostream& out) {
+bool run_draw_command(const DrawCommand& command, std::ostream& out, const Progress& progress) {
   check_options(command);
   const Painter reference = make_painter(command.backends.front());
   std::vector<Painter> painters;
   for (std::size_t i = 1; i < command.backends.size(); ++i)
     painters.push_back(make_painter(command.backends[i]));
-  const Scene scene = read_scene(command.inputs).scene;
+  const Scene scene = read_scene(command.inputs, progress).scene;
   const Drawn drawn = prepare(command, scene);
   if (command.depth) painters.push_back(read_painter(command, drawn.views.front()));
 
@@ -241,6 +237,7 @@ bool run_draw_command(const DrawCommand& command, std::ostream& out) {
   }
   Framebuffer expected;
   for (std::size_t view = 0; view < drawn.views.size(); ++view) {
+    progress.check_stop();
     reference.draw(drawn.views[view], drawn.items, expected);
     for (Judged& judged : candidates)
       judge_view(command, drawn, view, expected, judged, out);

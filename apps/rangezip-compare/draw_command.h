@@ -8,6 +8,7 @@
 
 #include "compare/footprint.h"
 #include "core/base/grid.h"
+#include "core/base/progress.h"
 
 namespace rangezip::compare {
 
@@ -32,7 +33,8 @@ struct DrawCommand {
 /// otherwise none that roundings do not explain (drawing_judge.h).
 /// @return true if nothing differs that must not
 /// @throws UsageError if options contradict each other, IoError if a file cannot be read,
-///     OutputError if one cannot be written, BackendError if a backend is unknown or fails.
-bool run_draw_command(const DrawCommand& command, std::ostream& out);
+///     OutputError if one cannot be written, BackendError if a backend is unknown or fails,
+///     Cancelled (which is asked between views).
+bool run_draw_command(const DrawCommand& command, std::ostream& out, const Progress& progress);
 
 }  // namespace rangezip::compare

@@ -1,12 +1,12 @@
 #include "apps/rangezip-compare/images_command.h"
 
-#include <array>
-#include <fstream>
 #include <ostream>
 #include <string>
+#include <string_view>
 
 #include "compare/framebuffer_diff.h"
 #include "core/base/error.h"
+#include "core/io/file_bytes.h"
 #include "core/io/image_file.h"
 
 namespace rangezip::compare {
@@ -22,20 +22,20 @@ ImageKind kind_of(const std::filesystem::path& path) {
     throw IoError(path.string() + ": must be an image of depths (.pfm), IDs or a mask (.png)");
   }
   // Signature (8 bytes), length and name of the first chunk (8), width, height (8), bit depth (1).
+  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
   constexpr std::size_t kColourType = 25;
   constexpr unsigned char kGrey = 0;
   constexpr unsigned char kRedGreenBlueAlpha = 6;
-  std::array<char, kColourType + 1> head{};
-  std::ifstream file(path, std::ios::binary);
-  if (!file.read(head.data(), head.size())) {
-    throw IoError(path.string() + ": cannot be opened, or ends within its first " +
-                  std::to_string(head.size()) + " bytes");
-  }
-  const auto colour_type = static_cast<unsigned char>(head[kColourType]);
+  const FileBytes file(path);
+  const std::string_view bytes = file.bytes();
+  if (!bytes.starts_with(kSignature)) file.fail("must be a PNG file");
+  if (bytes.size() <= kColourType) file.fail("the file ends within its header");
+  const auto colour_type = static_cast<unsigned char>(bytes[kColourType]);
   if (colour_type == kGrey) return ImageKind::mask;
   if (colour_type == kRedGreenBlueAlpha) return ImageKind::ids;
-  throw IoError(path.string() + ": byte 25: must be a PNG of IDs (RGBA) or a mask (grey), got " +
-                "colour type " + std::to_string(colour_type));
+  file.fail_at_byte(&bytes[kColourType],
+                    "must be a PNG of IDs (RGBA) or a mask (grey), got colour type " +
+                        std::to_string(colour_type));
 }
 
 GridDiff compare_files(ImageKind kind, const std::filesystem::path& reference,

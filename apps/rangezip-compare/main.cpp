@@ -1,8 +1,13 @@
 // rangezip-compare: the referee on the command line. Exit codes: see kFooter.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <exception>
+#include <filesystem>
+#include <functional>
 #include <iostream>
+#include <new>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -13,36 +18,50 @@
 #include "apps/rangezip-compare/stages_command.h"
 #include "apps/rangezip/backend.h"
 #include "apps/rangezip/exit_code.h"
+#include "apps/rangezip/interrupt.h"
 #include "apps/rangezip/values.h"
 #include "core/base/error.h"
+#include "core/base/progress.h"
 
 namespace {
 
 using namespace rangezip;
 using namespace rangezip::compare;
 
-/// The numbers that `rangezip` returns for the same things.
+/// As with cmp and diff, 1 is a verdict and all above is trouble. Trouble has the numbers that it
+/// has with `rangezip`, but for wrong usage, which is 1 there.
 enum ExitCode {
   good = 0,
-  usage = 1,
+  different = 1,
   bad_input = 2,
   bad_output = 3,
   bad_backend = 4,
-  bad = 5,
-  failure = 6
+  usage = 5,
+  failure = 6,
+  cancelled = 130
 };
 
 constexpr const char* kFooter =
-    "Without the name of a command, 'draw' is meant.\n"
-    "Exit codes: 0 the mesh is clean, or nothing differs that must not; 1 wrong usage; 2 an input\n"
-    "cannot be read; 3 an output cannot be written; 4 a backend is unknown or failed; 5 the mesh "
-    "is\n"
-    "not clean, or images, drawings or stages differ; 6 any other failure.\n"
+    "Without the name of a command, 'draw' is meant.\n\n"
+    "Exit codes:\n"
+    "  0  nothing differs that must not; the mesh is clean\n"
+    "  1  images, stages or drawings differ that must not; the mesh is not clean\n"
+    "  2  an input is missing or not what it claims to be\n"
+    "  3  an output cannot be written\n"
+    "  4  a backend is unknown or failed\n"
+    "  5  wrong option or argument\n"
+    "  6  anything else, such as memory that ran out\n"
+    "  130  interrupted (Ctrl-C); no file is left half written\n\n"
     "This program contains code of CGAL and is under the GNU General Public License, version 3 or\n"
     "later; rangezip's own code in it is BSD-3-Clause.";
 
 constexpr int kMostViews = 10'000;
 constexpr int kMostEdge = 256;  // a pixel
+
+int fail(ExitCode code, const char* text) {
+  std::cerr << "rangezip-compare: " << text << '\n';
+  return code;
+}
 
 /// A usage error is one exit code here, whatever CLI11 calls it; asking for help is none.
 int report_parse_error(const CLI::App& app, const CLI::ParseError& error) {
@@ -59,9 +78,8 @@ CLI::App* add_mesh(CLI::App& app, MeshCommand& command) {
   judge->add_option("--json", command.json,
                     "Write the figures to this file; lengths are shares of the truth's (else the "
                     "cloud's) diagonal");
-  judge->add_option("--samples", command.samples, "Samples of each surface")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  app::add_parsed(*judge, "--samples", command.samples, app::parse_count,
+                  "Samples of each surface [" + std::to_string(command.samples) + "]", "N");
   judge->add_option("--seed", command.seed, "Of the samples")->capture_default_str();
   return judge;
 }
@@ -70,7 +88,9 @@ CLI::App* add_mesh(CLI::App& app, MeshCommand& command) {
 std::vector<std::string> parse_backends(const std::string& text) {
   std::vector<std::string> names = CLI::detail::split(text, ',');
   for (const std::string& name : names) {
-    if (name.empty()) throw CLI::ValidationError("must be names separated by commas", text);
+    if (name.empty()) {
+      throw CLI::ValidationError("must be names separated by commas, got '" + text + "'");
+    }
   }
   return names;
 }
@@ -140,9 +160,8 @@ CLI::App* add_sample(CLI::App& app, SampleCommand& command) {
       app.add_subcommand("sample", "Write a cloud of points spread evenly over a mesh");
   sample->add_option("MESH", command.mesh, "PLY, OBJ, OFF or STL (.gz of each)")->required();
   sample->add_option("-o,--output", command.cloud, "Text, one point a line")->required();
-  sample->add_option("--points", command.points, "How many")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  app::add_parsed(*sample, "--points", command.points, app::parse_count,
+                  "How many [" + std::to_string(command.points) + "]", "N");
   sample->add_option("--seed", command.seed, "Of their places")->capture_default_str();
   return sample;
 }
@@ -155,7 +174,28 @@ CLI::App* add_stages(CLI::App& app, StagesCommand& command) {
   app::add_parsed(*stages, "--backends", command.backends, parse_backends,
                   "The reference, then what is compared with it: " + app::known_backends(), "A,B")
       ->required();
+  stages->add_option("--json", command.json, "Write the verdicts to this file");
   return stages;
+}
+
+/// "rangezip-compare mesh --help", of the command on the command line.
+std::string help_of(const CLI::App& app) {
+  std::string line = app.get_name();
+  for (const CLI::App* command : app.get_subcommands())
+    line += " " + command->get_name();
+  return line + " --help";
+}
+
+/// A word that is neither a command nor looks like a file is a mistyped command.
+void check_command_name(const CLI::App& app, const std::string& word) {
+  if (word.starts_with("-") || word.find('.') != std::string::npos ||
+      std::filesystem::exists(word)) {
+    return;
+  }
+  std::string known;
+  for (const CLI::App* command : app.get_subcommands({}))
+    known += (known.empty() ? "" : ", ") + command->get_name();
+  throw CLI::ValidationError(word, "is no command, and no file; there are " + known);
 }
 
 /// The arguments in CLI11's order, the last first.
@@ -166,19 +206,60 @@ std::vector<std::string> arguments_of(const CLI::App& app, int argc, char** argv
     return std::any_of(commands.begin(), commands.end(),
                        [&](const CLI::App* command) { return command->get_name() == word; });
   };
-  const bool asks_for_help =
-      !arguments.empty() && (arguments[0] == "-h" || arguments[0] == "--help");
-  if (!arguments.empty() && !asks_for_help && !is_command(arguments[0])) {
+  const std::array<std::string, 3> of_program{"-h", "--help", "--version"};
+  const auto is_of_program = [&](const std::string& word) {
+    return std::find(of_program.begin(), of_program.end(), word) != of_program.end();
+  };
+  if (!arguments.empty() && !is_of_program(arguments[0]) && !is_command(arguments[0])) {
+    check_command_name(app, arguments[0]);
     arguments.insert(arguments.begin(), "draw");
   }
   std::reverse(arguments.begin(), arguments.end());
   return arguments;
 }
 
-int run(int argc, char** argv) {
-  CLI::App app{"Judges what rangezip makes, with CGAL as an independent witness."};
+/// The command that was asked for, as a function; true if its verdict is good.
+using Action = std::function<bool(std::ostream&, const Progress&)>;
+
+int carry_out(const Action& action) {
+  const app::InterruptWatch interrupts;
+  const bool is_good = action(std::cout, {.stop = interrupts.token()});
+  std::cout.flush();
+  if (!std::cout) throw app::OutputError("standard output: cannot be written in full");
+  return is_good ? good : different;
+}
+
+int run(const Action& action) {
+  try {
+    return carry_out(action);
+  } catch (const app::UsageError& error) {
+    return fail(usage, error.what());
+  } catch (const app::OutputError& error) {
+    return fail(bad_output, error.what());
+  } catch (const BackendError& error) {
+    return fail(bad_backend, error.what());
+  } catch (const IoError& error) {
+    return fail(bad_input, error.what());
+  } catch (const Cancelled&) {
+    return fail(cancelled, "interrupted");
+  } catch (const std::bad_alloc&) {
+    return fail(failure, "not enough memory");
+  } catch (const std::length_error&) {  // a number of elements that no memory could hold
+    return fail(failure, "not enough memory");
+  } catch (const std::exception& error) {
+    return fail(failure, error.what());
+  }
+}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App app{"Judges what rangezip makes, with CGAL as an independent witness.",
+               "rangezip-compare"};
   app.footer(kFooter);
+  app.set_version_flag("--version", "rangezip-compare " RANGEZIP_VERSION);
   app.require_subcommand(1);
+  app.failure_message([](const CLI::App* failing, const CLI::Error& error) {
+    return "rangezip-compare: " + std::string(error.what()) + "\nSee " + help_of(*failing) + "\n";
+  });
   DrawCommand draw;
   MeshCommand mesh;
   ImagesCommand images;
@@ -195,33 +276,22 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return report_parse_error(app, error);
   }
-  if (judge_drawings->parsed()) return run_draw_command(draw, std::cout) ? good : bad;
-  if (judge_mesh->parsed()) return run_mesh_command(mesh, std::cout) ? good : bad;
-  if (compare_images->parsed()) return run_images_command(images, std::cout) ? good : bad;
-  if (judge_stages->parsed()) return run_stages_command(stages, std::cout) ? good : bad;
-  run_sample_command(sample);
-  return good;
+  return run([&](std::ostream& out, const Progress& progress) {
+    if (judge_drawings->parsed()) return run_draw_command(draw, out, progress);
+    if (judge_mesh->parsed()) return run_mesh_command(mesh, out, progress);
+    if (compare_images->parsed()) return run_images_command(images, out);
+    if (judge_stages->parsed()) return run_stages_command(stages, out, progress);
+    run_sample_command(sample, progress);
+    return true;
+  });
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
-  } catch (const app::UsageError& error) {
-    std::cerr << "rangezip-compare: " << error.what() << '\n';
-    return usage;
-  } catch (const app::OutputError& error) {
-    std::cerr << "rangezip-compare: " << error.what() << '\n';
-    return bad_output;
-  } catch (const BackendError& error) {
-    std::cerr << "rangezip-compare: " << error.what() << '\n';
-    return bad_backend;
-  } catch (const IoError& error) {
-    std::cerr << "rangezip-compare: " << error.what() << '\n';
-    return bad_input;
+    return parse_and_run(argc, argv);
   } catch (const std::exception& error) {
-    std::cerr << "rangezip-compare: " << error.what() << '\n';
-    return failure;
+    return fail(failure, error.what());
   }
 }

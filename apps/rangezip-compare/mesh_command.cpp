@@ -1,15 +1,15 @@
 #include "apps/rangezip-compare/mesh_command.h"
 
 #include <array>
-#include <fstream>
 #include <iomanip>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <ostream>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "apps/rangezip/exit_code.h"
+#include "apps/rangezip-compare/json_file.h"
 #include "compare/mesh_distance.h"
 #include "compare/mesh_judge.h"
 #include "core/base/error.h"
@@ -82,51 +82,78 @@ void print_verdict(std::ostream& out, const Json& mesh) {
       << mesh.at("degenerate_faces") << " degenerate faces\n";
 }
 
-void write_json(const std::filesystem::path& path, const Json& json) {
-  std::ofstream file(path);
-  file << json.dump(2) << '\n';
-  file.close();
-  if (!file) throw app::OutputError(path.string() + ": the report cannot be written in full");
-}
-
 struct Cloud {
   std::vector<Vec3> points;
   double diagonal = 0.0;
 };
 
-Cloud read_cloud(const std::filesystem::path& path) {
-  const Scene scene = read_scene(std::array{path}).scene;
+Cloud read_cloud(const std::filesystem::path& path, const Progress& progress) {
+  const Scene scene = read_scene(std::array{path}, progress).scene;
   if (scene.point_count() == 0) throw IoError(path.string() + ": must have points");
   return {.points = scene.points(), .diagonal = scene.bounds().diagonal()};
 }
 
+/// A mesh with its file, for messages.
+struct Surface {
+  std::filesystem::path path;
+  TriangleMesh mesh;
+
+  explicit Surface(const std::filesystem::path& file) : path(file), mesh(read_mesh(file)) {}
+};
+
+/// Calls `measure` on the mesh. @throws IoError with the name of the file if it has no area
+template <class Measure>
+auto measured(const Surface& surface, const Measure& measure) {
+  try {
+    return measure(surface.mesh);
+  } catch (const TopologyError& error) {
+    throw IoError(surface.path.string() + ": " + error.what());
+  }
+}
+
+std::vector<Vec3> samples_of(const Surface& surface, const SurfaceSampleOptions& sampling) {
+  return measured(surface, [&](const TriangleMesh& m) { return sample_surface(m, sampling); });
+}
+
+std::vector<double> distances_to(const Surface& surface, const std::vector<Vec3>& points) {
+  return measured(surface, [&](const TriangleMesh& m) { return distances_to_mesh(points, m); });
+}
+
+void compare_with_truth(const MeshCommand& command, const Surface& surface, const Surface& truth,
+                        Json& json, std::ostream& out, const Progress& progress) {
+  const SurfaceSampleOptions sampling{.count = command.samples, .seed = command.seed};
+  const double diagonal = bounds_of(truth.mesh).diagonal();
+  json["diagonal"] = diagonal;
+  json["accuracy"] = to_json(distances_to(truth, samples_of(surface, sampling)), diagonal);
+  progress.check_stop();
+  json["completeness"] = to_json(distances_to(surface, samples_of(truth, sampling)), diagonal);
+  print_distances(out, "mesh to truth:  ", json["accuracy"]);
+  print_distances(out, "truth to mesh:  ", json["completeness"]);
+}
+
+void compare_with_cloud(const Surface& surface, const Cloud& cloud, Json& json, std::ostream& out) {
+  if (!json.contains("diagonal")) json["diagonal"] = cloud.diagonal;
+  json["cloud"] = to_json(distances_to(surface, cloud.points), json["diagonal"].get<double>());
+  print_distances(out, "cloud to mesh:  ", json["cloud"]);
+}
+
 }  // namespace
 
-bool run_mesh_command(const MeshCommand& command, std::ostream& out) {
-  const TriangleMesh mesh = read_mesh(command.mesh);
-  const SurfaceSampleOptions sampling{.count = command.samples, .seed = command.seed};
+bool run_mesh_command(const MeshCommand& command, std::ostream& out, const Progress& progress) {
+  if (command.json) check_json_place(*command.json);
+  const Surface surface(command.mesh);
+  const auto truth = command.truth ? std::optional<Surface>(*command.truth) : std::nullopt;
+  const auto cloud =
+      command.cloud ? std::optional<Cloud>(read_cloud(*command.cloud, progress)) : std::nullopt;
+  progress.check_stop();
   Json json{{"file", command.mesh.string()},
-            {"mesh", to_json(judge_mesh(mesh), report_mesh(mesh))}};
+            {"mesh", to_json(judge_mesh(surface.mesh), report_mesh(surface.mesh))}};
   print_verdict(out, json["mesh"]);
-
-  double diagonal = 0.0;  // of the truth, else of the cloud
-  if (command.truth) {
-    const TriangleMesh truth = read_mesh(*command.truth);
-    diagonal = bounds_of(truth).diagonal();
-    json["diagonal"] = diagonal;
-    json["accuracy"] = to_json(distances_to_mesh(sample_surface(mesh, sampling), truth), diagonal);
-    json["completeness"] =
-        to_json(distances_to_mesh(sample_surface(truth, sampling), mesh), diagonal);
-    print_distances(out, "mesh to truth:  ", json["accuracy"]);
-    print_distances(out, "truth to mesh:  ", json["completeness"]);
-  }
-  if (command.cloud) {
-    const Cloud cloud = read_cloud(*command.cloud);
-    if (!command.truth) diagonal = cloud.diagonal;
-    json["diagonal"] = diagonal;
-    json["cloud"] = to_json(distances_to_mesh(cloud.points, mesh), diagonal);
-    print_distances(out, "cloud to mesh:  ", json["cloud"]);
-  }
+  progress.check_stop();
+  if (truth) compare_with_truth(command, surface, *truth, json, out, progress);
+  progress.check_stop();
+  if (cloud) compare_with_cloud(surface, *cloud, json, out);
+  progress.check_stop();
   if (command.json) write_json(*command.json, json);
   return json["mesh"]["clean"].get<bool>();
 }

@@ -6,6 +6,8 @@
 #include <iosfwd>
 #include <optional>
 
+#include "core/base/progress.h"
+
 namespace rangezip::compare {
 
 struct MeshCommand {
@@ -21,8 +23,8 @@ struct MeshCommand {
 /// given in % of the diagonal of the truth's bounding box, else the cloud's.
 /// @return true if the mesh is clean: manifold, oriented, without degenerate faces and
 ///     self-intersections
-/// @throws IoError if a file cannot be read, OutputError if the report cannot be written,
-///     TopologyError if a mesh has no area where a distance is asked for.
-bool run_mesh_command(const MeshCommand& command, std::ostream& out);
+/// @throws IoError if a file cannot be read, or a mesh has no area where a distance is asked for;
+///     OutputError if the report cannot be written, Cancelled (which is asked between figures).
+bool run_mesh_command(const MeshCommand& command, std::ostream& out, const Progress& progress);
 
 }  // namespace rangezip::compare

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "core/base/progress.h"
+
 namespace rangezip::compare {
 
 struct SampleCommand {
@@ -15,8 +17,8 @@ struct SampleCommand {
 
 /// Writes points spread evenly over a mesh: a cloud whose true surface is known, for benchmarks.
 /// Every coordinate has the digits that give back the same double.
-/// @throws IoError if the mesh cannot be read, OutputError if the cloud cannot be written in full,
-///     TopologyError if the mesh has no area.
-void run_sample_command(const SampleCommand& command);
+/// @throws IoError if the mesh cannot be read or has no area, OutputError if the cloud cannot be
+///     written in full, Cancelled.
+void run_sample_command(const SampleCommand& command, const Progress& progress);
 
 }  // namespace rangezip::compare

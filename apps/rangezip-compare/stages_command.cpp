@@ -1,8 +1,13 @@
 #include "apps/rangezip-compare/stages_command.h"
 
+#include <algorithm>
+#include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "apps/rangezip-compare/json_file.h"
+#include "apps/rangezip-compare/stages_report.h"
 #include "apps/rangezip/backend.h"
 #include "apps/rangezip/exit_code.h"
 #include "apps/rangezip/session_start.h"
@@ -14,6 +19,8 @@
 namespace rangezip::compare {
 
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 /// "scan": the command's name in the session file.
 std::string name_of(const Command& command) {
@@ -28,65 +35,70 @@ std::string name_of(const Command& command) {
   return std::visit(Name{}, command);
 }
 
-void print_command(std::ostream& out, const CommandVerdict& verdict) {
-  for (const StageVerdict& stage : verdict.stages) {
-    out << "  " << stage.name << ": ";
-    if (stage.identical()) {
-      out << stage.compared << " equal\n";
-    } else {
-      out << stage.different << " of " << stage.compared << " differ, first " << stage.first
-          << '\n';
-    }
-  }
+std::vector<std::string> names_of(const std::vector<Command>& commands) {
+  std::vector<std::string> names;
+  std::transform(commands.begin(), commands.end(), std::back_inserter(names), name_of);
+  return names;
 }
 
-/// @return whether all is equal
-bool print_session(std::ostream& out, const SessionFile& file, const std::string& pair,
-                   const std::vector<CommandVerdict>& verdicts) {
-  for (std::size_t i = 0; i < verdicts.size(); ++i) {
-    out << "command " << i << ", " << name_of(file.commands[i]) << '\n';
-    print_command(out, verdicts[i]);
+app::SessionStart read_start(const StagesCommand& command, const SessionFile& file,
+                             const Progress& progress) {
+  const auto read = [&](const auto& paths) { return read_scene(paths, progress).scene; };
+  try {
+    return app::read_session_start(command.session, file, read);
+  } catch (const TopologyError& error) {
+    throw IoError(command.session.string() + ": /initial_mesh: " + error.what());
   }
-  if (verdicts.empty() || verdicts.back().identical()) {
-    out << pair << ": " << verdicts.size() << " commands, all stages equal\n";
-    return true;
-  }
-  const StageVerdict& stage = verdicts.back().first_difference();
-  out << pair << ": first difference: command " << verdicts.size() - 1 << ", " << stage.name << ", "
-      << stage.first << '\n';
-  return false;
 }
 
 std::vector<CommandVerdict> judge(const StagesCommand& command, const SessionFile& file,
                                   const app::SessionStart& start, Rasterizer& reference,
-                                  Rasterizer& candidate) {
+                                  Rasterizer& candidate, const Progress& progress) {
   try {
-    return judge_session(start.scene, start.mesh, file.commands, reference, candidate);
+    return judge_session(start.scene, start.mesh, file.commands, reference, candidate, progress);
   } catch (const InvalidArgument& error) {
     throw IoError(command.session.string() + ": " + error.what());
   }
 }
 
+Json report_of(const StagesCommand& command, std::span<const std::string> names,
+               const Rasterizer& reference, const std::vector<JudgedSession>& candidates) {
+  Json json{
+      {"session", command.session.string()},
+      {"commands", names.size()},
+      {"reference", {{"name", command.backends.front()}, {"renderer", reference.info().name}}},
+      {"candidates", Json::array()}};
+  for (const JudgedSession& judged : candidates)
+    json["candidates"].push_back(json_of(names, judged));
+  return json;
+}
+
 }  // namespace
 
-bool run_stages_command(const StagesCommand& command, std::ostream& out) {
+bool run_stages_command(const StagesCommand& command, std::ostream& out, const Progress& progress) {
   if (command.backends.size() < 2) {
     throw app::UsageError("stages: --backends must name two at least");
   }
+  if (command.json) check_json_place(*command.json);
   std::vector<std::unique_ptr<Rasterizer>> rasterizers;
   for (const std::string& name : command.backends)
     rasterizers.push_back(app::make_rasterizer(name));
   const SessionFile file = read_session(command.session);
-  const app::SessionStart start = app::read_session_start(
-      command.session, file, [](const auto& paths) { return read_scene(paths).scene; });
+  const app::SessionStart start = read_start(command, file, progress);
+  const std::vector<std::string> names = names_of(file.commands);
 
-  bool all_equal = true;
+  Rasterizer& reference = *rasterizers.front();
+  std::vector<JudgedSession> candidates;
   for (std::size_t i = 1; i < rasterizers.size(); ++i) {
-    const std::string pair = command.backends[i] + " against " + command.backends.front();
-    const auto verdicts = judge(command, file, start, *rasterizers.front(), *rasterizers[i]);
-    all_equal = print_session(out, file, pair, verdicts) && all_equal;
+    candidates.push_back(
+        {.name = command.backends[i],
+         .renderer = rasterizers[i]->info().name,
+         .verdicts = judge(command, file, start, reference, *rasterizers[i], progress)});
+    print_session(out, names, command.backends.front(), candidates.back());
   }
-  return all_equal;
+  if (command.json) write_json(*command.json, report_of(command, names, reference, candidates));
+  return std::all_of(candidates.begin(), candidates.end(),
+                     std::mem_fn(&JudgedSession::is_identical));
 }
 
 }  // namespace rangezip::compare

@@ -1,23 +1,36 @@
 // The same drawing by whichever rasterizer the user names. The pipeline takes a Rasterizer& and
 // never asks which one it is; a program makes one and passes it on:
 //   chosen_backend [NAME]        default: the environment variable RANGEZIP_BACKEND, else cpu
+// NAME is cpu, or where the library has raster_gl also gl, gl:osmesa, gl:egl ...
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <memory>
 #include <string>
-#include <string_view>
 
 #include "core/base/error.h"
 #include "core/scene/scene.h"
 #include "raster_cpu/cpu_rasterizer.h"
+#ifdef WITH_RASTER_GL
+#include "raster_gl/context_list.h"
+#include "raster_gl/gl_rasterizer.h"
+#endif
 
 namespace {
 
-std::unique_ptr<rangezip::Rasterizer> make_rasterizer(std::string_view name) {
+std::unique_ptr<rangezip::Rasterizer> make_rasterizer(const std::string& name) {
   if (name == "cpu") return std::make_unique<rangezip::CpuRasterizer>();
-  throw rangezip::BackendError("unknown backend '" + std::string(name) + "'; known: cpu");
+  std::string known = "cpu";
+#ifdef WITH_RASTER_GL
+  // "gl" is the first context that starts here; "gl:egl" the one called "egl".
+  if (name == "gl" || name.starts_with("gl:")) {
+    return std::make_unique<rangezip::GlRasterizer>(
+        rangezip::make_gl_context(name == "gl" ? "" : name.substr(3)));
+  }
+  known += ", gl, gl: and one of " + rangezip::known_gl_contexts();
+#endif
+  throw rangezip::BackendError("unknown backend '" + name + "'; known: " + known);
 }
 
 std::string chosen_name(int argc, char** argv) {

@@ -1,6 +1,6 @@
 # `rangezip-compare draw` and `stages` as a user runs them. Run by CTest:
 #   cmake -D PROGRAM=<rangezip-compare> -D RANGEZIP=<rangezip> -D SCRATCH=<folder>
-#     -P draw_program_test.cmake
+#     -D WITH_GL=<built with OpenGL> -P draw_program_test.cmake
 cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/expect.cmake)
 file(REMOVE_RECURSE ${SCRATCH})
@@ -43,7 +43,7 @@ set(files --view-of s.json --depth d.pfm --ids i.png)
 expect(0 "files .*: 1 view, 4096 pixels, .*identical"
   draw cube.obj --backends cpu ${files} --tolerance 0,0)
 # What was drawn of another body is no rounding: red pixels, and the place of the first.
-expect(5 "view 0, files: .*coverage.*[1-9][0-9]* unexplained.*first: pixel .*reference: ID .*triangle"
+expect(1 "view 0, files: .*coverage.*[1-9][0-9]* unexplained.*first: pixel .*reference: ID .*triangle"
   draw longer.obj --backends cpu ${files} --images images --json differs.json)
 if(NOT EXISTS ${SCRATCH}/images/view-00-files.png)
   message(SEND_ERROR "no picture of the view that differs")
@@ -68,24 +68,61 @@ expect(2 "no_scan.json: /commands: must hold a scan" draw cube.obj --backends cp
   --view-of no_scan.json)
 expect(3 "no such folder" draw cube.obj --backends cpu,cpu --images nowhere)
 expect(3 "there is no folder nowhere" draw cube.obj --backends cpu,cpu --json nowhere/r.json)
-expect(1 "nothing to compare with" draw cube.obj --backends cpu)
-expect(1 "belong together" draw cube.obj --backends cpu --view-of s.json --ids i.png)
-expect(1 "need --view-of" draw cube.obj --backends cpu --depth d.pfm --ids i.png)
-expect(1 "excludes" draw cube.obj --backends cpu,cpu --view-of s.json --views 3)
-expect(1 "two whole numbers" draw cube.obj --backends cpu ${files} --tolerance 3)
-expect(1 "two whole numbers" draw cube.obj --backends cpu ${files} --tolerance=-1,2)
-expect(1 "separated by commas" draw cube.obj --backends cpu,,cpu)
-expect(1 "backends is required" draw cube.obj)
-expect(1 "views" draw cube.obj --backends cpu,cpu --views 0)
-expect(1 "size" draw cube.obj --backends cpu,cpu --size 9000,1)
+expect(5 "nothing to compare with" draw cube.obj --backends cpu)
+expect(5 "belong together" draw cube.obj --backends cpu --view-of s.json --ids i.png)
+expect(5 "need --view-of" draw cube.obj --backends cpu --depth d.pfm --ids i.png)
+expect(5 "excludes" draw cube.obj --backends cpu,cpu --view-of s.json --views 3)
+expect(5 "two whole numbers" draw cube.obj --backends cpu ${files} --tolerance 3)
+expect(5 "two whole numbers" draw cube.obj --backends cpu ${files} --tolerance=-1,2)
+expect(5 "separated by commas" draw cube.obj --backends cpu,,cpu)
+expect(5 "backends is required" draw cube.obj)
+expect(5 "views" draw cube.obj --backends cpu,cpu --views 0)
+expect(5 "size" draw cube.obj --backends cpu,cpu --size 9000,1)
 
 # A session, stage by stage.
-expect(0 "command 0, scan.*framebuffers: [1-9].*mask: .*mesh: .*cpu:scalar against cpu: 1 commands, all"
+expect(0 "command 0, scan.*framebuffers: [1-9].*mask: .*mesh: .*cpu:scalar against cpu: 1 command, all"
   stages s.json --backends cpu,cpu:scalar)
-expect(1 "must name two" stages s.json --backends cpu)
-expect(1 "SESSION is required" stages --backends cpu,cpu)
+expect(5 "must name two" stages s.json --backends cpu)
+expect(5 "SESSION is required" stages --backends cpu,cpu)
 expect(2 "nowhere.json" stages nowhere.json --backends cpu,cpu)
 expect(4 "no backend 'abacus'" stages s.json --backends cpu,abacus)
+expect(3 "there is no folder nowhere" stages s.json --backends cpu,cpu --json nowhere/r.json)
 file(WRITE ${SCRATCH}/wrong.json [[{"version": 1, "inputs": [{"path": "cube.obj"}],
   "commands": [{"command": "undo"}]}]])
 expect(2 "wrong.json: /commands/0: " stages wrong.json --backends cpu,cpu)
+file(WRITE ${SCRATCH}/turned.obj "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n")
+file(WRITE ${SCRATCH}/turned.json [[{"version": 1, "inputs": [],
+  "initial_mesh": {"path": "turned.obj"}, "commands": [{"command": "smooth"}]}]])
+expect(2 "turned.json: /initial_mesh: .*turned.obj" stages turned.json --backends cpu,cpu)
+
+# A whole one: several scans and the finish, with every backend of this build.
+set(backends cpu:scalar)
+if(WITH_GL)
+  string(APPEND backends ",gl:osmesa,gl:egl")
+endif()
+execute_process(COMMAND ${RANGEZIP} mesh cube.obj -o mesh.ply --session whole.json -q
+  --triangles 1500 WORKING_DIRECTORY ${SCRATCH} COMMAND_ERROR_IS_FATAL ANY)
+expect(0 "command 1, scan.*finish.* commands, all stages equal"
+  stages whole.json --backends cpu,${backends} --json stages.json)
+file(READ ${SCRATCH}/stages.json report)
+string(JSON commands GET "${report}" commands)
+string(JSON reference GET "${report}" reference name)
+string(REPLACE "," ";" backends "${backends}")
+list(LENGTH backends count)
+string(JSON candidates LENGTH "${report}" candidates)
+if(commands LESS 3 OR NOT reference STREQUAL "cpu" OR NOT candidates EQUAL count)
+  message(SEND_ERROR "stages.json: ${report}")
+endif()
+math(EXPR last "${count} - 1")
+foreach(i RANGE ${last})
+  list(GET backends ${i} name)
+  string(JSON found GET "${report}" candidates ${i} name)
+  string(JSON identical GET "${report}" candidates ${i} identical)
+  string(JSON played LENGTH "${report}" candidates ${i} commands)
+  string(JSON stages LENGTH "${report}" candidates ${i} commands 0 stages)
+  string(JSON compared GET "${report}" candidates ${i} commands 0 stages 0 compared)
+  if(NOT found STREQUAL name OR NOT identical OR NOT played EQUAL commands OR NOT stages EQUAL 9
+      OR compared LESS 1)
+    message(SEND_ERROR "stages.json, candidate ${i}: ${report}")
+  endif()
+endforeach()

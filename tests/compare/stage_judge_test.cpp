@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <functional>
+#include <utility>
 
 #include "core/base/error.h"
 #include "raster_cpu/cpu_rasterizer.h"
@@ -88,7 +89,7 @@ TEST_CASE("a session with two exact backends has every stage of every command eq
   REQUIRE(verdicts.size() == 3);
   for (const CommandVerdict& verdict : verdicts)
     CHECK(verdict.identical());
-  REQUIRE(verdicts[0].stages.size() == 8);
+  REQUIRE(verdicts[0].stages.size() == 9);
   // The scene and its sums for the first scan; for the second also two bands of the mesh.
   CHECK(verdicts[0].stages.front().compared >= 2);
   CHECK(verdicts[1].stages.front().compared >= 4);
@@ -145,8 +146,115 @@ TEST_CASE("if only one run of the pipeline goes astray, the first product that d
   const auto verdicts = ball.judge(reference, candidate);
   REQUIRE(verdicts.size() == 1);
   CHECK(stage(verdicts[0], "framebuffers").identical());
-  CHECK(verdicts[0].first_difference().name == "range image");
+  CHECK(verdicts[0].first_difference().name == "scene framebuffer");
   CHECK_THAT(verdicts[0].first_difference().first, Contains("pixel ("));
+}
+
+TEST_CASE("a whole session is played: scans, a view into a hole, commands on the mesh, undo") {
+  Ball ball;
+  AddScan into_hole = ball.scan_from({1, 0, 0});
+  into_hole.scan.unmatched_only = true;
+  EraseRegion erase{.extent = {64, 64}, .region = {{20, 20}, {40, 20}, {30, 40}}};
+  erase.camera = ball.scan_from({0, 0, 1}).scan.camera;
+  ball.commands = {ball.scan_from({0, 0, 1}),
+                   ball.scan_from({0, 0, -1}),
+                   into_hole,
+                   erase,
+                   FillMeshHoles{},
+                   SmoothMesh{},
+                   UndoSteps{2},
+                   FinishMesh{}};
+  CpuRasterizer reference;
+  CpuRasterizer scalar("scalar");
+  const auto verdicts = ball.judge(reference, scalar);
+  REQUIRE(verdicts.size() == ball.commands.size());
+  for (const CommandVerdict& verdict : verdicts) {
+    CHECK(verdict.identical());
+    CHECK(stage(verdict, "mesh").compared > 1000);
+  }
+  for (const std::size_t scan : {0U, 1U, 2U})
+    CHECK(verdicts[scan].stages.size() == 9);
+  CHECK(stage(verdicts[2], "patch").compared > 0);
+  CHECK(stage(verdicts[3], "framebuffers").compared == 1);
+  CHECK(verdicts[3].stages.size() == 2);
+
+  // A drawing that only a late command makes: the render of the erasure, after those of the scans.
+  WrongOnce candidate(Operation::render, 3);
+  const auto wrong = ball.judge(reference, candidate);
+  REQUIRE(wrong.size() == 4);
+  CHECK_THAT(wrong[3].first_difference().first, Contains("drawing 0 (render), 1 pixels"));
+}
+
+TEST_CASE("a difference in any product of a scan is named with its stage and its place") {
+  struct Case {
+    std::string stage;
+    std::string place;
+    std::function<void(Scan&)> change;
+  };
+  const Pixel at{20, 17};
+  const std::string pixel = "pixel (20, 17)";
+  const std::vector<Case> cases{
+      {"scene framebuffer", pixel, [&](Scan& s) { ++s.scene_buffer.depth[at]; }},
+      {"scene framebuffer", pixel, [&](Scan& s) { ++s.scene_buffer.id[at]; }},
+      {"range image", pixel, [&](Scan& s) { s.image[at] = 3.0; }},
+      {"filled", pixel, [&](Scan& s) { s.filled[at] ^= 1U; }},
+      {"slopes", pixel, [&](Scan& s) { s.slopes[at].y += 1e-15; }},
+      {"correspondence", pixel, [&](Scan& s) { ++s.correspondence.face[at]; }},
+      {"correspondence", pixel, [&](Scan& s) { s.correspondence.from_behind[at] ^= 1U; }},
+      {"mask", pixel, [&](Scan& s) { s.active[at] ^= 1U; }},
+      {"patch", "vertex 7", [](Scan& s) { s.patch.mesh.positions[7].x += 1e-15; }},
+      {"patch", "face 9",
+       [](Scan& s) { std::swap(s.patch.mesh.triangles[9][0], s.patch.mesh.triangles[9][1]); }},
+      {"patch", "source of vertex 2", [](Scan& s) { ++s.patch.mesh.sources[2].primitive; }},
+      {"patch", "pixel of vertex 5", [](Scan& s) { ++s.patch.pixels[5].x; }},
+  };
+  const Ball ball;
+  const AddScan request = ball.scan_from({0, 0, 1});
+  const Scan reference = scans::run(ball.scene, request.scan);
+  for (const StageVerdict& verdict : judge_scans(reference, reference))
+    CHECK(verdict.identical());
+  for (const auto& [name, place, change] : cases) {
+    CAPTURE(name, place);
+    Scan candidate = reference;
+    change(candidate);
+    const CommandVerdict verdict{judge_scans(reference, candidate)};
+    REQUIRE_FALSE(verdict.identical());
+    CHECK(verdict.first_difference().name == name);
+    CHECK(verdict.first_difference().first == place);
+    CHECK(verdict.first_difference().different == 1);
+    CHECK(std::count_if(verdict.stages.begin(), verdict.stages.end(),
+                        std::mem_fn(&StageVerdict::identical)) == 6);
+  }
+}
+
+TEST_CASE("meshes differ in positions, faces, sources, and in what one of them lacks") {
+  TriangleMesh reference = shapes::to_mesh(shapes::box(Vec3{0.0}, Vec3{1.0}));
+  reference.sources.resize(reference.positions.size());
+  const auto first = [&](const std::function<void(TriangleMesh&)>& change) {
+    TriangleMesh candidate = reference;
+    change(candidate);
+    const StageVerdict verdict = judge_meshes(reference, candidate);
+    CHECK(verdict.name == "mesh");
+    CHECK(verdict.different == 1);
+    return verdict.first;
+  };
+  CHECK(judge_meshes(reference, reference).identical());
+  CHECK(first([](TriangleMesh& m) { m.positions[4].z += 1e-15; }) == "vertex 4");
+  CHECK(first([](TriangleMesh& m) { m.triangles[3][2] += 1; }) == "face 3");
+  CHECK(first([](TriangleMesh& m) { m.sources[1].view = 6; }) == "source of vertex 1");
+  CHECK(first([](TriangleMesh& m) { m.triangles.pop_back(); }) == "face 11");
+  CHECK(first([](TriangleMesh& m) { m.positions.emplace_back(0.0); }) == "vertex 8");
+}
+
+TEST_CASE("the play of a session can be cancelled") {
+  const Ball ball;
+  CpuRasterizer reference;
+  CpuRasterizer candidate;
+  std::stop_source stop;
+  stop.request_stop();
+  CHECK_THROWS_AS(judge_session(ball.scene, {}, ball.commands, reference, candidate,
+                                {.stop = stop.get_token()}),
+                  Cancelled);
 }
 
 TEST_CASE("a command that cannot be carried out is named by its place") {
