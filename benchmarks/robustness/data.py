@@ -124,11 +124,13 @@ def is_good(drawing):
 
 
 def line_of(drawing):
-    exact = [j['differing'] for j in drawing['by'].values() if 'causes' not in j]
-    native = [j for j in drawing['by'].values() if 'causes' in j]
-    return (f'| {drawing["file"]} | {drawing["side"]} | {drawing["pixels"]} | '
-            f'{drawing["covered"]} | {sum(exact)} | {sum(j["differing"] for j in native)} | '
-            f'{sum(j["unexplained"] for j in native)} |')
+    judgements = drawing['by'].values()
+    exact = [j['differing'] for j in judgements if 'unexplained' not in j]
+    native = [j for j in judgements if 'unexplained' in j]
+    cells = [drawing['file'], drawing['side'], drawing['pixels'], drawing['covered'],
+             ', '.join(map(str, exact)), ', '.join(str(j['differing']) for j in native),
+             ', '.join(str(j['unexplained']) for j in native)]
+    return '| ' + ' | '.join(map(str, cells)) + ' |'
 
 
 def draw_all(folder):
@@ -159,9 +161,8 @@ def totals_of(drawings):
             total = totals.setdefault(name, collections.Counter())
             total.update({'views': drawing['views'], 'pixels': drawing['pixels'],
                           'covered': drawing['covered'], 'differing': judgement['differing']})
-            if 'causes' in judgement:
-                total.update({'unexplained': judgement['unexplained']})
-                total.update(judgement['causes'])
+            if 'unexplained' in judgement:
+                total.update({'unexplained': judgement['unexplained']} | judgement['causes'])
     return totals
 
 
