@@ -90,30 +90,38 @@ void add_evidence(PrimitiveId id, const PixelFit& fit, DifferingPixel& pixel) {
   }
 }
 
-/// The differing pixels, findable by their rows.
+/// The differing pixels, findable by their rows and, since most primitives are small, by blocks of
+/// their rows.
 class RowsOfPixels {
  public:
-  RowsOfPixels(std::span<DifferingPixel> pixels, int height)
-      : pixels_(pixels), starts_(static_cast<std::size_t>(height) + 1, 0) {
+  RowsOfPixels(std::span<DifferingPixel> pixels, Extent extent)
+      : pixels_(pixels),
+        blocks_{extent.width / kBlock + 1, extent.height},
+        starts_(blocks_.count() + 1, 0) {
     for (const DifferingPixel& pixel : pixels)
-      ++starts_[static_cast<std::size_t>(pixel.pixel.y) + 1];
+      ++starts_[block_of(pixel.pixel.x, pixel.pixel.y) + 1];
     std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
   }
 
   /// Those of row y in the columns first..last.
   [[nodiscard]] std::span<DifferingPixel> between(int y, int first, int last) const {
-    const auto row = static_cast<std::size_t>(y);
-    const auto whole = pixels_.subspan(starts_[row], starts_[row + 1] - starts_[row]);
+    const std::size_t start = starts_[block_of(first, y)];
+    const auto near = pixels_.subspan(start, starts_[block_of(last, y) + 1] - start);
     const auto begin = std::partition_point(
-        whole.begin(), whole.end(), [&](const DifferingPixel& p) { return p.pixel.x < first; });
+        near.begin(), near.end(), [&](const DifferingPixel& p) { return p.pixel.x < first; });
     const auto end = std::partition_point(
-        begin, whole.end(), [&](const DifferingPixel& p) { return p.pixel.x <= last; });
+        begin, near.end(), [&](const DifferingPixel& p) { return p.pixel.x <= last; });
     return {begin, end};
   }
 
  private:
+  static constexpr int kBlock = 8;  // pixels; most primitives lie in one or two
+
+  [[nodiscard]] std::size_t block_of(int x, int y) const { return blocks_.index({x / kBlock, y}); }
+
   std::span<DifferingPixel> pixels_;
-  std::vector<std::size_t> starts_;  ///< row y is [starts_[y], starts_[y + 1])
+  Extent blocks_;
+  std::vector<std::size_t> starts_;  ///< block b is [starts_[b], starts_[b + 1])
 };
 
 /// Asks one primitive about the differing pixels that it may reach.
@@ -128,7 +136,7 @@ void ask(const SnappedPrimitive& primitive, const PixelBox& box, const DrawingTo
 
 void gather_evidence(const View& view, std::span<const DrawItem> items,
                      const DrawingTolerance& tolerance, std::span<DifferingPixel> pixels) {
-  const RowsOfPixels rows(pixels, view.extent().height);
+  const RowsOfPixels rows(pixels, view.extent());
   SnappedPrimitive primitive;
   for (const DrawItem& item : items) {
     const SnappedItem snapped = snap_item(view, item);

@@ -104,28 +104,35 @@ std::int64_t floor_of(Wide dividend, Wide divisor) {
   return static_cast<std::int64_t>(dividend % divisor < 0 ? quotient - 1 : quotient);
 }
 
-/// Depths that a piece of a triangle may have at `s`: R7, and what the tolerance adds.
 struct DepthRange {
   std::int64_t nearest = 0;
   std::int64_t farthest = 0;
 };
+constexpr DepthRange kAnyDepth{-std::int64_t{kMaxDepth}, 2 * std::int64_t{kMaxDepth}};
+
+/// Depths that a piece of a triangle may have at `s`: R7, and what the tolerance adds. Corners that
+/// move tilt the plane, the more so the thinner the triangle; one that they may turn over has no
+/// plane to speak of.
 DepthRange depths_of(const Turned& t, const Place& s, const DrawingTolerance& tolerance) {
   const auto [z_min, z_max] = std::minmax({t.corners[0].z, t.corners[1].z, t.corners[2].z});
-  if (t.area == 0) return {z_min - tolerance.depth, z_max + tolerance.depth};
   const Wide area = std::abs(t.area);
+  const Wide least_area = area - area_change(t, tolerance.slope);
+  if (least_area <= 0) return kAnyDepth;
   Wide height = 0;  // each times the area
   Wide rise_x = 0;
   Wide rise_y = 0;
+  Wide tilt = 0;  // by how much both rises together change at most
   for (std::size_t i = 0; i < t.edges.size(); ++i) {
     const Wide z = std::int64_t{t.corners[i].z} - z_min;
     height += z * t.edges[i].at(s);
     rise_x -= z * t.edges[i].dy;
     rise_y += z * t.edges[i].dx;
+    tilt += z * 4 * tolerance.slope;
   }
-  const Wide rise = (rise_x < 0 ? -rise_x : rise_x) + (rise_y < 0 ? -rise_y : rise_y);
+  const Wide rise = (rise_x < 0 ? -rise_x : rise_x) + (rise_y < 0 ? -rise_y : rise_y) + tilt;
   const std::int64_t depth = z_min + floor_of(height, area);
   const std::int64_t allowance =
-      tolerance.depth - floor_of(-rise * tolerance.slope, area);  // rounded up
+      tolerance.depth - floor_of(-rise * tolerance.slope, least_area);  // rounded up
   return {std::max<std::int64_t>(depth, z_min) - allowance,
           std::min<std::int64_t>(depth, z_max) + allowance};
 }

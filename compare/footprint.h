@@ -79,9 +79,10 @@ struct PixelFit {
 /// triangle so moved has its centre, that is if the centre lies in the sum of the triangle and the
 /// square [-edge, edge]^2; it must be if that square around its centre lies in the triangle. With 0
 /// both are R6, ties included. The depth is that of the triangle's plane somewhere in the square
-/// [-slope, slope]^2 around the centre. It may lie past the depths of the corners by as much as it
-/// changes there, since drivers round edges and planes apart.
-/// Points: the same for R5. Clip planes are those of R11, without a tolerance.
+/// [-slope, slope]^2 around the centre, where the plane is as steep as corners moved by `slope`
+/// make it: a triangle so thin that they may turn it over may have any depth. It may lie past the
+/// depths of the corners by as much as it changes there, since drivers round edges and planes
+/// apart. Points: the same for R5. Clip planes are those of R11, without a tolerance.
 [[nodiscard]] PixelFit fit_of(const SnappedPrimitive& primitive, Pixel pixel,
                               const DrawingTolerance& tolerance);
 

@@ -170,8 +170,9 @@ GlRasterizer::GlRasterizer(std::unique_ptr<GlContext> context, const GlOptions& 
 GlRasterizer::~GlRasterizer() = default;
 
 RasterizerInfo GlRasterizer::info() const {
-  return {.name = "gl:" + state_->context->name() + ", " + state_->objects->device.renderer() +
-                  ", " + name_of(strategy()),
+  const GlDevice& device = state_->objects->device;
+  return {.name = "gl:" + state_->context->name() + ", " + device.renderer() + ", OpenGL " +
+                  device.version() + ", " + name_of(strategy()),
           .max_extent = {kMaxRasterExtent, kMaxRasterExtent},
           .max_point_size = kMaxPointSize,
           .subpixel_bits = 8,

@@ -63,6 +63,30 @@ struct Judged {
   [[nodiscard]] bool is_good() const { return total.of(Cause::unexplained) == 0; }
 };
 
+/// A backend, with OpenGL and a strategy that was asked for.
+struct Brush {
+  std::string backend;
+  std::string strategy;
+
+  /// "gl:osmesa compute"
+  [[nodiscard]] std::string name() const {
+    return strategy.empty() ? backend : backend + " " + strategy;
+  }
+};
+
+std::vector<Brush> brushes_of(const DrawCommand& command) {
+  std::vector<Brush> brushes;
+  for (const std::string& backend : command.backends) {
+    if (command.strategies.empty() || !app::is_gl(backend)) {
+      brushes.push_back({.backend = backend});
+      continue;
+    }
+    for (const std::string& strategy : command.strategies)
+      brushes.push_back({.backend = backend, .strategy = strategy});
+  }
+  return brushes;
+}
+
 void check_options(const DrawCommand& command) {
   if (command.depth.has_value() != command.ids.has_value()) {
     throw app::UsageError("draw: --depth and --ids belong together");
@@ -70,10 +94,16 @@ void check_options(const DrawCommand& command) {
   if (command.depth && !command.view_of) {
     throw app::UsageError("draw: --depth and --ids need --view-of, the session with their view");
   }
-  const std::size_t drawings = command.backends.size() + (command.depth ? 1 : 0);
-  if (drawings < 2) {
+  const auto& backends = command.backends;
+  if (!command.strategies.empty() && std::none_of(backends.begin(), backends.end(), app::is_gl)) {
     throw app::UsageError(
-        "draw: nothing to compare with: give two --backends, or one and --depth and --ids");
+        "draw: --strategy is how OpenGL draws, but none of --backends is 'gl' or "
+        "begins with 'gl:'");
+  }
+  if (brushes_of(command).size() + (command.depth ? 1 : 0) < 2) {
+    throw app::UsageError(
+        "draw: nothing to compare with: give two --backends (or one with OpenGL and two of "
+        "--strategy), or one and --depth and --ids");
   }
   if (command.json) check_json_place(*command.json);
   if (!command.images) return;
@@ -111,8 +141,9 @@ Drawn prepare(const DrawCommand& command, const Scene& scene) {
           .items = scene.draw_items(scan.point_size)};
 }
 
-Painter make_painter(const std::string& name) {
-  Painter painter{.name = name, .rasterizer = app::make_rasterizer(name)};
+Painter make_painter(const Brush& brush) {
+  Painter painter{.name = brush.name(),
+                  .rasterizer = app::make_rasterizer(brush.backend, brush.strategy)};
   const RasterizerInfo info = painter.rasterizer->info();
   painter.renderer = info.name;
   painter.is_exact = info.reproducible;
@@ -222,10 +253,11 @@ void print_total(std::ostream& out, const Judged& judged, const Painter& referen
 
 bool run_draw_command(const DrawCommand& command, std::ostream& out, const Progress& progress) {
   check_options(command);
-  const Painter reference = make_painter(command.backends.front());
+  const std::vector<Brush> brushes = brushes_of(command);
+  const Painter reference = make_painter(brushes.front());
   std::vector<Painter> painters;
-  for (std::size_t i = 1; i < command.backends.size(); ++i)
-    painters.push_back(make_painter(command.backends[i]));
+  for (std::size_t i = 1; i < brushes.size(); ++i)
+    painters.push_back(make_painter(brushes[i]));
   const Scene scene = read_scene(command.inputs, progress).scene;
   const Drawn drawn = prepare(command, scene);
   if (command.depth) painters.push_back(read_painter(command, drawn.views.front()));

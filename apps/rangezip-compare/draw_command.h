@@ -15,7 +15,9 @@ namespace rangezip::compare {
 struct DrawCommand {
   std::vector<std::filesystem::path> inputs;
   std::vector<std::string> backends;  ///< the first is the reference
-  int views = 6;                      ///< from evenly spread directions
+  /// Each OpenGL backend is drawn with each of them; empty: with the first that is exact there.
+  std::vector<std::string> strategies;
+  int views = 6;  ///< from evenly spread directions
   Extent size{512, 512};
   int point_size = 1;                            ///< pixels
   std::optional<std::filesystem::path> view_of;  ///< a session: the view of its first scan instead

@@ -85,7 +85,7 @@ CLI::App* add_mesh(CLI::App& app, MeshCommand& command) {
 }
 
 /// "A,B,C"
-std::vector<std::string> parse_backends(const std::string& text) {
+std::vector<std::string> parse_names(const std::string& text) {
   std::vector<std::string> names = CLI::detail::split(text, ',');
   for (const std::string& name : names) {
     if (name.empty()) {
@@ -114,9 +114,14 @@ CLI::App* add_draw(CLI::App& app, DrawCommand& command) {
       app.add_subcommand("draw", "Draw the same views with several backends and judge each pixel");
   draw->add_option("INPUT", command.inputs, "Clouds and polygons, as `rangezip scan` reads them")
       ->required();
-  app::add_parsed(*draw, "--backends", command.backends, parse_backends,
+  app::add_parsed(*draw, "--backends", command.backends, parse_names,
                   "The reference, then what is compared with it: " + app::known_backends(), "A,B")
       ->required();
+  app::add_parsed(*draw, "--strategy", command.strategies, parse_names,
+                  "How OpenGL draws: " + app::known_strategies() +
+                      "; each backend with OpenGL draws by each of them [the first that is exact "
+                      "there]",
+                  "A,B");
   draw->add_option("--views", command.views, "How many, from evenly spread directions")
       ->check(CLI::Range(1, kMostViews))
       ->capture_default_str();
@@ -171,7 +176,7 @@ CLI::App* add_stages(CLI::App& app, StagesCommand& command) {
       "stages", "Play a session with several backends and name the first stage that differs");
   stages->add_option("SESSION", command.session, "From --session of `rangezip mesh` or `scan`")
       ->required();
-  app::add_parsed(*stages, "--backends", command.backends, parse_backends,
+  app::add_parsed(*stages, "--backends", command.backends, parse_names,
                   "The reference, then what is compared with it: " + app::known_backends(), "A,B")
       ->required();
   stages->add_option("--json", command.json, "Write the verdicts to this file");

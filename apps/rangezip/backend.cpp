@@ -18,12 +18,23 @@ namespace {
 #ifdef RANGEZIP_WITH_GL
 
 constexpr const char* kKnownGl = "gl, gl:osmesa, gl:egl, gl:egl:N, gl:egl:surfaceless";
+constexpr const char* kKnownStrategies = "compute, fixed_function, native";
 
-std::unique_ptr<Rasterizer> make_gl_rasterizer(const std::string& context) {
+GlStrategy strategy_of(const std::string& name) {
+  try {
+    return name.empty() ? GlStrategy::automatic : gl_strategy(name);
+  } catch (const InvalidArgument&) {
+    throw BackendError("there is no strategy '" + name + "'; known: " + kKnownStrategies);
+  }
+}
+
+std::unique_ptr<Rasterizer> make_gl_rasterizer(const std::string& context,
+                                               const std::string& strategy) {
+  const GlOptions options{.strategy = strategy_of(strategy)};
   // Mesa asks when its first context starts.
   constexpr int kKeepIfSet = 0;
   setenv("LP_NUM_THREADS", std::to_string(thread_count()).c_str(), kKeepIfSet);
-  return std::make_unique<GlRasterizer>(make_gl_context(context));
+  return std::make_unique<GlRasterizer>(make_gl_context(context), options);
 }
 
 std::vector<std::string> gl_backends() {
@@ -36,8 +47,10 @@ std::vector<std::string> gl_backends() {
 #else
 
 constexpr const char* kKnownGl = "no gl (this program was built without OpenGL)";
+constexpr const char* kKnownStrategies = "none (this program was built without OpenGL)";
 
-std::unique_ptr<Rasterizer> make_gl_rasterizer(const std::string& /*context*/) {
+std::unique_ptr<Rasterizer> make_gl_rasterizer(const std::string& /*context*/,
+                                               const std::string& /*strategy*/) {
   throw BackendError("this program was built without OpenGL (RANGEZIP_WITH_GL=OFF); known: cpu");
 }
 
@@ -56,6 +69,8 @@ BackendStatus try_backend(const std::string& name) {
 }
 
 constexpr std::string_view kCpuWith = "cpu:";
+constexpr std::string_view kGl = "gl";
+constexpr std::string_view kGlWith = "gl:";
 
 /// cpu:NAME, with one set of vector instructions.
 std::unique_ptr<Rasterizer> make_cpu(const std::string& name) {
@@ -75,14 +90,23 @@ std::string known_backends() {
   return names + ", " + kKnownGl;
 }
 
-std::unique_ptr<Rasterizer> make_rasterizer(const std::string& name) {
-  constexpr std::string_view kContextPrefix = "gl:";
+std::string known_strategies() {
+  return kKnownStrategies;
+}
+
+bool is_gl(const std::string& name) {
+  return name == kGl || (name.size() > kGlWith.size() && name.starts_with(kGlWith));
+}
+
+std::unique_ptr<Rasterizer> make_rasterizer(const std::string& name, const std::string& strategy) {
+  if (is_gl(name)) {
+    return make_gl_rasterizer(name == kGl ? "" : name.substr(kGlWith.size()), strategy);
+  }
+  if (!strategy.empty()) {
+    throw BackendError("the backend '" + name + "' has no strategies; those with OpenGL have");
+  }
   if (name == "cpu") return std::make_unique<CpuRasterizer>();
   if (name.starts_with(kCpuWith)) return make_cpu(name);
-  if (name == "gl") return make_gl_rasterizer("");
-  if (name.size() > kContextPrefix.size() && name.starts_with(kContextPrefix)) {
-    return make_gl_rasterizer(name.substr(kContextPrefix.size()));
-  }
   throw BackendError("there is no backend '" + name + "'; known: " + known_backends());
 }
 

@@ -1,9 +1,11 @@
-// Draws random scenes with every set of vector instructions and 1 to 8 threads, and compares depth
-// and ID of every pixel, and all ten sums, with scalar code in one thread.
-//   raster_fuzz [--pixels N] [--seed S] [--threads T] [--json FILE] [--revision NAME]
+// Draws random scenes with every set of vector instructions and 1 to 8 threads, or with a backend,
+// and compares depth and ID of every pixel, and all ten sums, with scalar code in one thread.
+//   raster_fuzz [--against BACKEND [--strategy NAME]] [--pixels N] [--seed S] [--threads T]
+//               [--json FILE] [--revision NAME]
 //       until N pixels (default 1e9) are compared, with up to T threads (default 8); then shows
 //       that rasterizers with wrong rules are noticed. Exit code 1 at the first difference, or if a
-//       wrong rule is not noticed.
+//       wrong rule is not noticed. BACKEND has a name of `rangezip --backend`, such as gl:osmesa,
+//       the strategy one of `rangezip-compare draw --strategy`, such as compute.
 //   raster_fuzz --seed S --scene K    that scene alone, with each number of threads. A difference
 //       that does not come back needs what the scenes before K left in the working memory.
 //   raster_fuzz --control NAME        that wrong rule alone
@@ -21,6 +23,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/rangezip/backend.h"
 #include "benchmarks/report.h"
 #include "tests/support/backends.h"
 #include "tests/support/raster_fuzz.h"
@@ -36,6 +39,8 @@ struct Options {
   std::uint64_t pixels = 1'000'000'000;
   std::uint64_t seed = 1;
   int threads = 8;
+  std::string against;   ///< empty: the CPU, with all its sets of instructions
+  std::string strategy;  ///< of OpenGL; empty: the backend chooses
   std::optional<std::uint64_t> scene;
   std::string control;
   std::string json;
@@ -60,6 +65,7 @@ struct Failure {
 };
 
 struct Result {
+  std::vector<std::string> renderers;  ///< of the candidates, with their drivers
   std::map<std::string, Count> families;
   std::map<std::string, std::map<int, std::uint64_t>> pixels;  ///< by backend and threads
   Count total;
@@ -72,11 +78,22 @@ struct Candidate {
   std::unique_ptr<Rasterizer> rasterizer;
 };
 
-std::vector<Candidate> make_candidates() {
+std::vector<Backend> backends_of(const Options& options) {
+  if (options.against.empty()) return all_backends();
+  const auto make = [options] { return app::make_rasterizer(options.against, options.strategy); };
+  return {{options.against, make, !app::is_gl(options.against)}};
+}
+
+std::vector<Candidate> make_candidates(const Options& options) {
   std::vector<Candidate> candidates;
-  for (const Backend& backend : all_backends())
+  for (const Backend& backend : backends_of(options))
     candidates.push_back({backend, backend.make()});
   return candidates;
+}
+
+/// The most that make a difference to a candidate.
+int most_threads(const Options& options, const Candidate& candidate) {
+  return candidate.backend.uses_threads ? options.threads : 1;
 }
 
 std::optional<fuzz::Difference> try_out(Rasterizer& rasterizer, int threads,
@@ -115,7 +132,8 @@ void run_scene(const Options& options, std::uint64_t scene,
   shapes::Random random(options.seed ^ (scene << 16U));
   count_scene(drawn, result);
   for (const Candidate& candidate : candidates) {
-    const auto choice = random.bits() % static_cast<std::uint64_t>(options.threads);
+    const auto most = static_cast<std::uint64_t>(most_threads(options, candidate));
+    const auto choice = random.bits() % most;
     compare(candidate, static_cast<int>(choice) + 1, scene, drawn, found, result);
     if (result.failure) return;
   }
@@ -128,7 +146,8 @@ void run_one_scene(const Options& options, const std::vector<Candidate>& candida
   fuzz::Drawings found;
   count_scene(drawn, result);
   for (const Candidate& candidate : candidates) {
-    for (int threads = 1; threads <= options.threads && !result.failure; ++threads)
+    const int most = most_threads(options, candidate);
+    for (int threads = 1; threads <= most && !result.failure; ++threads)
       compare(candidate, threads, *options.scene, drawn, found, result);
   }
 }
@@ -142,9 +161,11 @@ void show_progress(const Options& options, const Result& result) {
 }
 
 Result run(const Options& options) {
-  const std::vector<Candidate> candidates = make_candidates();
+  const std::vector<Candidate> candidates = make_candidates(options);
   const auto reference = all_backends().front().make();
   Result result;
+  for (const Candidate& candidate : candidates)
+    result.renderers.push_back(candidate.rasterizer->info().name);
   if (options.scene) {
     run_one_scene(options, candidates, *reference, result);
     return result;
@@ -214,6 +235,7 @@ ordered_json to_json(const Options& options, const Result& result, double second
   json["seconds"] = std::round(seconds);
   json["seed"] = options.seed;
   json["reference"] = "scalar code, 1 thread";
+  json["against"] = result.renderers;
   json.update(to_json(result.total));
   json["differing_pixels"] = result.failure ? result.failure->difference.pixels : 0;
   json["identical"] = !result.failure;
@@ -221,7 +243,7 @@ ordered_json to_json(const Options& options, const Result& result, double second
     json["families"][family] = to_json(count);
   for (const auto& [backend, by_threads] : result.pixels) {
     for (const auto& [threads, pixels] : by_threads)
-      json["pixels_by_instructions_and_threads"][backend][std::to_string(threads)] = pixels;
+      json["pixels_by_backend_and_threads"][backend][std::to_string(threads)] = pixels;
   }
   return json;
 }
@@ -238,6 +260,10 @@ Options parse(const std::vector<std::string>& arguments) {
       options.seed = std::stoull(value);
     } else if (name == "--threads") {
       options.threads = std::stoi(value);
+    } else if (name == "--against") {
+      options.against = value;
+    } else if (name == "--strategy") {
+      options.strategy = value;
     } else if (name == "--scene") {
       options.scene = std::stoull(value);
     } else if (name == "--control") {
@@ -251,6 +277,9 @@ Options parse(const std::vector<std::string>& arguments) {
     }
   }
   if (options.threads < 1) throw std::runtime_error("--threads must be at least 1");
+  if (!options.strategy.empty() && !app::is_gl(options.against)) {
+    throw std::runtime_error("--strategy needs --against gl, or one that begins with gl:");
+  }
   return options;
 }
 

@@ -76,6 +76,9 @@ expect(5 "two whole numbers" draw cube.obj --backends cpu ${files} --tolerance 3
 expect(5 "two whole numbers" draw cube.obj --backends cpu ${files} --tolerance=-1,2)
 expect(5 "separated by commas" draw cube.obj --backends cpu,,cpu)
 expect(5 "backends is required" draw cube.obj)
+expect(5 "none of --backends is 'gl'" draw cube.obj --backends cpu,cpu:scalar --strategy compute)
+expect(5 "separated by commas" draw cube.obj --backends cpu,gl --strategy compute,,native)
+expect(0 "--strategy A,B .*How OpenGL draws" draw --help)
 expect(5 "views" draw cube.obj --backends cpu,cpu --views 0)
 expect(5 "size" draw cube.obj --backends cpu,cpu --size 9000,1)
 
@@ -125,4 +128,64 @@ foreach(i RANGE ${last})
       OR compared LESS 1)
     message(SEND_ERROR "stages.json, candidate ${i}: ${report}")
   endif()
+endforeach()
+
+if(NOT WITH_GL)
+  expect(4 "built without OpenGL" draw cube.obj --backends cpu,gl --strategy compute)
+  return()
+endif()
+
+# OpenGL, by each strategy: these fail where it does not start.
+expect(4 "no strategy 'abacus'; known: compute, fixed_function, native"
+  draw cube.obj --backends cpu,gl:osmesa --strategy abacus)
+expect(5 "nothing to compare with" draw cube.obj --backends gl:osmesa --strategy compute)
+expect(0 "gl:osmesa fixed_function .* against gl:osmesa compute .*exact: .*identical"
+  draw cube.obj --backends gl:osmesa --strategy compute,fixed_function --views 2 --size 64,64)
+expect(0 "gl:egl .* compute. against cpu .*exact: .*identical"
+  draw cube.obj --backends cpu,gl:egl --views 2 --size 64,64)
+
+execute_process(COMMAND ${PROGRAM} sample longer.obj -o points.xyz --points 20000
+  WORKING_DIRECTORY ${SCRATCH} COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${RANGEZIP} mesh points.xyz -o triangles.ply --triangles 20000 -q
+  WORKING_DIRECTORY ${SCRATCH} COMMAND_ERROR_IS_FATAL ANY)
+
+# judge(<scene> <options>...): draws it with OSMesa and EGL by every strategy; gives the report.
+function(judge scene)
+  execute_process(COMMAND ${PROGRAM} draw ${scene} --backends cpu,gl:osmesa,gl:egl
+      --strategy compute,fixed_function,native --views 3 --size 256,256 --json gl.json ${ARGN}
+    WORKING_DIRECTORY ${SCRATCH} OUTPUT_QUIET)
+  file(READ ${SCRATCH}/gl.json report)
+  set(report "${report}" PARENT_SCOPE)
+endfunction()
+
+# expect_candidate(<number> <name> <exact> <condition>...): of the last report. The condition may
+# ask for the figures covered, differing, unexplained.
+function(expect_candidate number name exact)
+  string(JSON found_name GET "${report}" candidates ${number} name)
+  string(JSON found_exact GET "${report}" candidates ${number} exact)
+  foreach(figure pixels identical covered unexplained)
+    string(JSON ${figure} GET "${report}" candidates ${number} total ${figure})
+  endforeach()
+  math(EXPR differing "${pixels} - ${identical}")
+  if(NOT found_name STREQUAL name OR NOT found_exact STREQUAL exact OR NOT (${ARGN}))
+    message(SEND_ERROR "${scene}: ${found_name}, exact ${found_exact}: ${covered} covered, "
+      "${differing} differing, ${unexplained} unexplained; expected ${name}, ${exact}, ${ARGN}")
+  endif()
+endfunction()
+
+# Points and triangles: exact strategies do not differ from the CPU. `native` does, and each of its
+# differences is explained; with no tolerance none is, so the judge has looked at them.
+foreach(scene points.xyz triangles.ply)
+  judge(${scene})
+  expect_candidate(0 "gl:osmesa compute" ON covered GREATER 10000 AND differing EQUAL 0)
+  expect_candidate(1 "gl:osmesa fixed_function" ON covered GREATER 10000 AND differing EQUAL 0)
+  expect_candidate(2 "gl:osmesa native" OFF differing GREATER 100 AND unexplained EQUAL 0)
+  expect_candidate(3 "gl:egl compute" ON covered GREATER 10000 AND differing EQUAL 0)
+  expect_candidate(4 "gl:egl fixed_function" ON covered GREATER 10000 AND differing EQUAL 0)
+  expect_candidate(5 "gl:egl native" OFF differing GREATER 100 AND unexplained EQUAL 0)
+  judge(${scene} --tolerance 0,0)
+  foreach(number 2 5)
+    string(JSON name GET "${report}" candidates ${number} name)
+    expect_candidate(${number} "${name}" OFF differing GREATER 100 AND unexplained EQUAL differing)
+  endforeach()
 endforeach()

@@ -200,14 +200,32 @@ TEST_CASE("the depth of a steep triangle may differ by what it changes within th
   const Framebuffer drawn = CpuRasterizer("scalar").render(scene.view, scene.items);
   REQUIRE(drawn.depth[{2, 2}] == 1000 + 10 * (2 * 256 + 128));
   Framebuffer candidate = drawn;
-  candidate.depth[{2, 2}] += 30 + 16;
-  candidate.depth[{3, 2}] -= 30 + 16;
-  candidate.depth[{4, 2}] += 30 + 17;
-  candidate.depth[{5, 2}] -= 30 + 17;
+  // In 3/256 px that is 30 units, and a little more where corners have moved apart.
+  candidate.depth[{2, 2}] += 31 + 16;
+  candidate.depth[{3, 2}] -= 31 + 16;
+  candidate.depth[{4, 2}] += 31 + 17;
+  candidate.depth[{5, 2}] -= 31 + 17;
   const DrawingVerdict verdict = judge_drawing(scene.view, scene.items, drawn, candidate, kDriver);
   CHECK(verdict.counts.of(Cause::depth_rounding) == 2);
   CHECK(verdict.counts.of(Cause::unexplained) == 2);
   CHECK(verdict.first_unexplained->pixel == Pixel{4, 2});
+}
+
+TEST_CASE("a sliver that rounding may turn over may have any depth, but only where it is") {
+  scenes::SceneBuilder builder = scenes::lattice_builder(kExtent);
+  const float far = 5000;
+  builder.add_triangles({{-64, -64, far}, {8192, -64, far}, {-64, 8192, far}}, {{0, 1, 2}});
+  // 1/256 px wide, along the pixels (0, 0), (1, 1), ..., (6, 6).
+  builder.add_triangles({{128, 128, 4000}, {1664, 1664, 4000}, {896, 897, 4100}}, {{0, 1, 2}});
+  const RasterScene scene = builder.take();
+  const Framebuffer drawn = CpuRasterizer("scalar").render(scene.view, scene.items);
+  Framebuffer candidate = drawn;
+  show(candidate, {3, 3}, 1000, 1);
+  show(candidate, {3, 5}, 1000, 1);
+  const DrawingVerdict verdict = judge_drawing(scene.view, scene.items, drawn, candidate, kDriver);
+  CHECK(verdict.counts.different_pixels() == 2);
+  CHECK(verdict.counts.of(Cause::unexplained) == 1);
+  CHECK(verdict.first_unexplained->pixel == Pixel{3, 5});
 }
 
 TEST_CASE("every injected fault is seen and unexplained without a tolerance") {
