@@ -91,6 +91,16 @@ def judgement_of(candidate):
     return judgement
 
 
+def drawing_of(name, side, report):
+    """What goes to the result of a report of rangezip-compare, and the drivers."""
+    candidates = report['candidates']
+    total = candidates[0]['total']
+    drawing = {'file': name, 'side': side, 'views': len(report['views']),
+               'pixels': total['pixels'], 'covered': total['covered'],
+               'by': {each['name']: judgement_of(each) for each in candidates}}
+    return drawing, {each['name']: each['renderer'] for each in candidates}
+
+
 def draw(folder, name, side):
     """Draws one file at one size. Returns what goes to the result, or the reason why it cannot be
     read, and the drivers."""
@@ -107,13 +117,7 @@ def draw(folder, name, side):
         return {'file': name, 'reason': reason}, {}
     if not os.path.exists(report_path):
         raise Failure(f'{name}: exit code {done.returncode}: {done.stderr.strip()}')
-    report = load_json(report_path)
-    candidates = report['candidates']
-    total = candidates[0]['total']
-    drawing = {'file': name, 'side': side, 'views': len(report['views']),
-               'pixels': total['pixels'], 'covered': total['covered'],
-               'by': {each['name']: judgement_of(each) for each in candidates}}
-    return drawing, {each['name']: each['renderer'] for each in candidates}
+    return drawing_of(name, side, load_json(report_path))
 
 
 def is_good(drawing):
@@ -134,9 +138,9 @@ def line_of(drawing):
 
 
 def draw_all(folder):
-    """Every file at every size, as many at a time as there are processors."""
+    """Every file at every size, small ones first, as many at a time as there are processors."""
     drawings, skipped, drivers = [], [], {}
-    tasks = [(name, side) for name in data_files(folder) for side in SIDES]
+    tasks = [(name, side) for side in SIDES for name in data_files(folder)]
     print('| file | side | pixels | covered | exact strategies: differing | native: differing | '
           'unexplained |\n|---|---|---|---|---|---|---|', flush=True)
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
