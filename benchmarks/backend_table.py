@@ -71,7 +71,8 @@ class Results:
 def text_of(scene):
     size = scene.get('point_size') or scene['pixels']
     order = f', {scene["order"]} order' if 'order' in scene else ''
-    return (f'{scene["count"]:,} {scene["scene"]} of {size:g} pixel{"s" * (size != 1)}{order}, '
+    count = f'{scene["count"]:,} ' if 'count' in scene else ''
+    return (f'{count}{scene["scene"]} of {size:g} pixel{"s" * (size != 1)}{order}, '
             f'{scene["size"]} x {scene["size"]}')
 
 
@@ -90,18 +91,16 @@ def ratio_lines(results, context):
         demanded = f'{"<=" if is_at_most else ">="} {bound:.1f}'
         return what, seen, demanded if not figure else f'{demanded}, {"met" if met else "missed"}'
 
-    def pair(scene):
-        return [results.drawing(context, by, **scene) for by in ('fixed_function', 'native')]
-
     name = context['context']
     scenes = [points(count=MILLION), points(count=MILLION, order='scan'),
               points(count=MILLION, point_size=3)]
     scenes += [{'scene': 'triangles', 'pixels': pixels, 'size': 512} for pixels in (0.34, 1.4)]
     for scene in scenes:
-        rows = pair(scene)
-        what = text_of(scene_of(rows[0]) if rows[0] else {'count': MILLION} | scene)
+        fixed, native = (results.drawing(context, by, **scene)
+                         for by in ('fixed_function', 'native'))
+        what = text_of(scene_of(fixed) if fixed else scene)
         yield line(f'{name}: time of `fixed_function` by that of `native`, {what}',
-                   drawing_ratio(*rows), 1.1 if scene['scene'] == 'points' else 1.6, True)
+                   drawing_ratio(fixed, native), 1.1 if scene['scene'] == 'points' else 1.6, True)
     scene = points(count=MILLION)
     yield line(f'{name}: times that `compute` is faster than `native`, {text_of(scene)}',
                drawing_ratio(results.drawing(context, 'native', **scene),
