@@ -38,9 +38,11 @@ constexpr int kSize = 1024;
 
 constexpr const char* kMesaThreads = "LP_NUM_THREADS";
 
-/// Before the first context: Mesa asks when it starts.
-std::string decide_threads_of_mesa() {
+/// Before the first context: Mesa asks when it starts. @return its threads, "0": the calling one
+std::string prepare_mesa() {
   constexpr int kKeepIfSet = 0;
+  // Its software renderer takes code from the cache that was made for vectors of another width.
+  setenv("MESA_SHADER_CACHE_DISABLE", "true", kKeepIfSet);
   setenv(kMesaThreads, "0", kKeepIfSet);
   return std::getenv(kMesaThreads);
 }
@@ -183,7 +185,7 @@ void run(const RunOptions& options, const std::string& mesa_threads, Results& re
 }
 
 void run_program(const std::vector<std::string>& arguments) {
-  const std::string mesa_threads = decide_threads_of_mesa();
+  const std::string mesa_threads = prepare_mesa();
   const RunOptions options = parse_run_options("backend_benchmark", list_gl_contexts(), arguments);
   run_and_store("backend_benchmark", options, [&](Results& results, Json& report) {
     run(options, mesa_threads, results, report);
