@@ -2,7 +2,7 @@
 // every OpenGL context that starts here by each strategy; upload, drawing and read-back apart, with
 // the scene kept on the device and with nothing kept.
 //   backend_benchmark [quick|full] [--only CONTEXT]... [--json FILE] [--revision TEXT]
-// quick: a minute; full: the ladder of sizes, half an hour. CONTEXT: a name such as osmesa or
+// quick: the scenes with a target; full: also the ladder of sizes. CONTEXT: a name such as osmesa or
 // egl:0. Mesa's software renderer draws on the calling thread, so that processor time is that of
 // one core, unless LP_NUM_THREADS says otherwise.
 // The limits stand in the same run: reading and copying memory, and for each context the copy of
