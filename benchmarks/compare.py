@@ -4,7 +4,7 @@
     compare.py BASE HEAD [--only WHAT]... [--runs N] [--own] [--jobs N] [--json FILE]
 
 BASE, HEAD  revisions of git; "." or "WORKTREE": the working tree with what is not committed
---only      a part of raster_benchmark: points, triangles, accumulate, threads, native; default: all
+--only      a part of raster_benchmark: points, triangles, accumulate, threads; default: all
 --runs      rounds of BASE, HEAD, default 3: the best of each row counts
 --own       each revision is measured by its own benchmark; default: both by the benchmark of HEAD,
             so that both draw the same scenes
@@ -225,8 +225,8 @@ def parse():
     parser.add_argument('base', metavar='BASE', help='a revision of git, "." or "WORKTREE"')
     parser.add_argument('head', metavar='HEAD', help='likewise')
     parser.add_argument('--only', metavar='WHAT', action='append', default=[],
-                        choices=('points', 'triangles', 'accumulate', 'threads', 'native'),
-                        help='points, triangles, accumulate, threads, native; default: all')
+                        choices=('points', 'triangles', 'accumulate', 'threads'),
+                        help='points, triangles, accumulate, threads; default: all')
     parser.add_argument('--runs', metavar='N', type=positive, default=3, help='default: 3')
     parser.add_argument('--own', action='store_true',
                         help='measure each revision by its own benchmark, not both by that of HEAD')

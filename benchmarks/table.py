@@ -7,8 +7,7 @@ RESULTS.json  a file that raster_benchmark --json wrote
 --all         also every row of the file
 
 First what is demanded: the figure beside its floor and its goal, and which of them it meets; then
-the points beside the limits, and the scenes that OSMesa drew too. A figure whose rows are not in
-the file is "not measured".
+the points beside the limits. A figure whose rows are not in the file is "not measured".
 """
 import argparse
 import json
@@ -43,9 +42,6 @@ class Rows:
     def accumulate(self, order):
         return self.find(what='accumulate', instructions=self.widest, order=order, size=1024,
                          count=TEN_MILLION)
-
-    def native(self, by, **name):
-        return self.find(what='native', by=by, **name)
 
     def avx512_points(self, **name):
         """Points by the widest set, where that is AVX-512."""
@@ -156,20 +152,6 @@ def limit_table(rows):
         for what, row in named if row is not None))
 
 
-def native_table(rows):
-    lines = []
-    for native in (row for row in rows.rows if row.get('by') == 'OSMesa'):
-        name = {key: native[key] for key in ('scene', 'point_size', 'pixels') if key in native}
-        ours = rows.native('CpuRasterizer', **name)
-        pixels = name.get('point_size') or name['pixels']
-        lines.append((f'{name["scene"]} of {pixels:g} pixel' + 's' * (pixels != 1),
-                      f'{native["count"]:,}',
-                      f'{ours["million_per_second"]:.3g}', f'{native["million_per_second"]:.3g}',
-                      f'{ratio(ours, native):.3g}'))
-    if lines:
-        yield from table(('scene', 'count', 'CPU rasterizer, M/s', 'OSMesa, M/s', 'times'), lines)
-
-
 def row_table(rows):
     measured = ('cpu_seconds', 'wall_seconds', 'million_per_second', 'fragments',
                 'pixels_per_second', 'runs', 'load', 'of_read_limit', 'bytes')
@@ -187,30 +169,40 @@ def row_table(rows):
                  (line(row) for row in rows.rows))
 
 
-def read(path):
+def read(path, program):
+    """The report of a program. Ends this one if there is none."""
     try:
         with open(path, encoding='utf-8') as file:
             report = json.load(file)
     except OSError as error:
-        sys.exit(f'table.py: {path}: {error.strerror}')
+        sys.exit(f'{path}: {error.strerror}')
     except json.JSONDecodeError as error:
-        sys.exit(f'table.py: {path}: no JSON: {error}')
-    if not isinstance(report, dict) or not {'rows', 'instructions'} <= report.keys():
-        sys.exit(f'table.py: {path}: no results of raster_benchmark')
+        sys.exit(f'{path}: no JSON: {error}')
+    if not isinstance(report, dict) or report.get('program') != program or 'rows' not in report:
+        sys.exit(f'{path}: no results of {program}')
     return report
+
+
+def machine_line(report):
+    """Where, when and of what a report was measured."""
+    load = ' to '.join(f'{load:.2f}' for load in report['load'])
+    compiler = f'{report["compiler"]}; ' if 'compiler' in report else ''
+    return (f'{report["processor"]}, {report["threads"]} threads, load {load}; {compiler}'
+            f'revision {report["revision"]}; {report["date"]}.\n')
+
+
+def print_sections(sections):
+    """Tables, those without lines left out."""
+    for section in map(list, sections):
+        if section:
+            print('\n'.join(section), end='\n\n')
 
 
 def print_tables(report, has_all):
     rows = Rows(report)
-    load = ' to '.join(f'{load:.2f}' for load in report['load'])
-    print(f'{report["processor"]}, {report["threads"]} threads, load {load}; '
-          f'{report["compiler"]}; revision {report["revision"]}; {report["date"]}.\n')
-    sections = [target_table(rows), limit_table(rows), native_table(rows)]
-    if has_all:
-        sections.append(row_table(rows))
-    for section in map(list, sections):
-        if section:
-            print('\n'.join(section), end='\n\n')
+    print(machine_line(report))
+    print_sections([target_table(rows), limit_table(rows)] +
+                   [row_table(rows)] * has_all)
     for note in report['notes']:
         print(f'- {note}')
 
@@ -220,7 +212,7 @@ def main():
     parser.add_argument('results')
     parser.add_argument('--all', action='store_true', help='also every row of the file')
     arguments = parser.parse_args()
-    print_tables(read(arguments.results), arguments.all)
+    print_tables(read(arguments.results, 'raster_benchmark'), arguments.all)
 
 
 if __name__ == '__main__':

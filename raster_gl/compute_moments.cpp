@@ -49,6 +49,7 @@ DrawReport ComputeMoments::add(const View& view, std::span<const DrawItem> items
 }
 
 void ComputeMoments::begin(const ImagePart& part, const AccumulateWindow& window) {
+  tools_.device.enter(GlPhase::draw);
   lower_.upload(part.of(window.band.lower.pixels()), "the window");
   upper_.upload(part.of(window.band.upper.pixels()), "the window");
   reference_.upload(part.of(window.reference.pixels()), "the window");

@@ -25,6 +25,7 @@ std::size_t ComputeTarget::most_pixels() const noexcept {
 }
 
 void ComputeTarget::begin(const ImagePart& part, const DepthBand* band) {
+  tools_.device.enter(GlPhase::draw);
   part_ = part;
   has_band_ = band != nullptr;
   const Kernels& kernels = tools_.kernels;
@@ -65,6 +66,7 @@ const GlProgram& ComputeTarget::kernel(Kernel kernel, DrawPass pass, bool single
 }
 
 void ComputeTarget::read(Framebuffer& out) {
+  const PhaseScope phase(tools_.device, GlPhase::read);
   if (tools_.setup.has_atomic_int64) {
     read_keys(out);
     return;

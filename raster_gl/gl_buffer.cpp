@@ -28,6 +28,7 @@ void GlBuffer::fill(std::size_t bytes, std::uint32_t value) {
 }
 
 void GlBuffer::upload_bytes(std::span<const std::byte> bytes, const char* content) {
+  const PhaseScope phase(*device_, GlPhase::upload);
   reserve(bytes.size(), content);
   if (bytes.empty()) return;
   device_->gl().NamedBufferSubData(name(), 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());
@@ -36,6 +37,7 @@ void GlBuffer::upload_bytes(std::span<const std::byte> bytes, const char* conten
 
 void GlBuffer::download_bytes(std::span<std::byte> bytes, std::size_t offset) const {
   if (bytes.empty()) return;
+  const PhaseScope phase(*device_, GlPhase::read);
   device_->gl().GetNamedBufferSubData(name(), static_cast<GLintptr>(offset),
                                       static_cast<GLsizeiptr>(bytes.size()), bytes.data());
   device_->check("reading a buffer");

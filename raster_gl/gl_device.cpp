@@ -1,6 +1,7 @@
 #include "raster_gl/gl_device.h"
 
 #include <string_view>
+#include <utility>
 
 #include "core/base/error.h"
 
@@ -64,9 +65,10 @@ std::string name_of(GLenum error) {
 
 }  // namespace
 
-GlDevice::GlDevice(const CurrentContext& current)
+GlDevice::GlDevice(const CurrentContext& current, GlPhaseObserver observer)
     : gl_(current),
       log_(std::make_unique<DebugLog>()),
+      observer_(std::move(observer)),
       renderer_(text_of(gl_, GL_RENDERER)),
       version_(text_of(gl_, GL_VERSION)) {
   require_extension(gl_, "GL_ARB_gpu_shader_int64");
@@ -98,6 +100,13 @@ void GlDevice::check(const char* stage) const {
   if (!log_->last_error.empty()) text += "; the driver says: " + log_->last_error;
   log_->last_error.clear();
   throw BackendError(text);
+}
+
+GlPhase GlDevice::enter(GlPhase phase) const {
+  if (!observer_) return phase;
+  gl_.Finish();
+  observer_(phase);
+  return std::exchange(phase_, phase);
 }
 
 }  // namespace rangezip

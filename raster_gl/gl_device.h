@@ -5,6 +5,7 @@
 #include <string>
 
 #include "raster_gl/gl_functions.h"
+#include "raster_gl/gl_phase.h"
 
 namespace rangezip {
 
@@ -12,9 +13,10 @@ namespace rangezip {
 /// current; must be destroyed while it is, too.
 class GlDevice {
  public:
+  /// @param observer of the phases; may be empty
   /// @throws BackendError if the driver lacks something that every strategy needs; the text names
   ///     it. docs/determinism.md lists what that is.
-  explicit GlDevice(const CurrentContext& current);
+  GlDevice(const CurrentContext& current, GlPhaseObserver observer);
   ~GlDevice();
   GlDevice(const GlDevice&) = delete;
   GlDevice& operator=(const GlDevice&) = delete;
@@ -33,15 +35,35 @@ class GlDevice {
   ///     what the driver's debug output told last.
   void check(const char* stage) const;
 
+  /// Tells the observer, if there is one, that a phase begins, once the one before is finished.
+  /// @return the one before
+  GlPhase enter(GlPhase phase) const;
+
  private:
   struct DebugLog;
 
   GlFunctions gl_;
   std::unique_ptr<DebugLog> log_;
+  GlPhaseObserver observer_;
+  mutable GlPhase phase_ = GlPhase::draw;  ///< of those that the observer was told
   std::string renderer_;
   std::string version_;
   std::size_t block_bytes_ = 0;
   bool has_atomic_int64_ = false;
+};
+
+/// A phase within another: until the end of this object.
+class PhaseScope {
+ public:
+  PhaseScope(const GlDevice& device, GlPhase phase)
+      : device_(device), before_(device.enter(phase)) {}
+  ~PhaseScope() { device_.enter(before_); }
+  PhaseScope(const PhaseScope&) = delete;
+  PhaseScope& operator=(const PhaseScope&) = delete;
+
+ private:
+  const GlDevice& device_;
+  GlPhase before_;
 };
 
 }  // namespace rangezip

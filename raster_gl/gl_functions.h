@@ -36,7 +36,9 @@ namespace rangezip {
   X(PFNGLDISABLEPROC, Disable)                                           \
   X(PFNGLDISPATCHCOMPUTEPROC, DispatchCompute)                           \
   X(PFNGLDRAWARRAYSPROC, DrawArrays)                                     \
+  X(PFNGLDRAWELEMENTSPROC, DrawElements)                                 \
   X(PFNGLENABLEPROC, Enable)                                             \
+  X(PFNGLFINISHPROC, Finish)                                             \
   X(PFNGLFRONTFACEPROC, FrontFace)                                       \
   X(PFNGLGETERRORPROC, GetError)                                         \
   X(PFNGLGETFLOATVPROC, GetFloatv)                                       \
@@ -63,6 +65,7 @@ namespace rangezip {
   X(PFNGLREADPIXELSPROC, ReadPixels)                                     \
   X(PFNGLSHADERSOURCEPROC, ShaderSource)                                 \
   X(PFNGLUSEPROGRAMPROC, UseProgram)                                     \
+  X(PFNGLVERTEXARRAYELEMENTBUFFERPROC, VertexArrayElementBuffer)         \
   X(PFNGLVIEWPORTPROC, Viewport)
 
 /// Their addresses in one context: gl.DrawArrays(...).

@@ -82,7 +82,7 @@ struct Objects {
   std::unique_ptr<Painters> painters;
 
   Objects(const CurrentContext& current, const GlOptions& options)
-      : device(current), uploads(device, options.cache_bytes) {}
+      : device(current, options.phase_observer), uploads(device, options.cache_bytes) {}
 
   void use(const Candidate& candidate) {
     painters = std::make_unique<Painters>(candidate.strategy,

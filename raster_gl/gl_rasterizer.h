@@ -7,6 +7,7 @@
 
 #include "core/raster/rasterizer.h"
 #include "raster_gl/gl_context.h"
+#include "raster_gl/gl_phase.h"
 
 namespace rangezip {
 
@@ -31,6 +32,9 @@ struct GlOptions {
   std::size_t cache_bytes = std::size_t{1} << 30;
   /// R2 in double precision, also where floats do it right: for tests.
   bool wide_rows = false;
+  /// For measurements: told the phases of every drawing, also of those at the start. The device is
+  /// waited for between them, which takes time; if this is empty, it is not.
+  GlPhaseObserver phase_observer;
 };
 
 /// Draws with OpenGL 4.5 the bits of docs/rasterization.md, hence those of CpuRasterizer (but for

@@ -37,6 +37,7 @@ void HardwareTarget::resize(const ImagePart& part) {
 }
 
 void HardwareTarget::begin(const ImagePart& part, const DepthBand* band, Projection projection) {
+  device_.enter(GlPhase::draw);
   part_ = part;
   resize(part);
   if (band != nullptr) {
@@ -74,17 +75,25 @@ void HardwareTarget::end() const {
   gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
-void HardwareTarget::draw(const GlProgram& program, GLenum primitives, std::size_t vertices) const {
+void HardwareTarget::draw(const GlProgram& program, GLenum primitives, std::size_t vertices,
+                          const GlBuffer* indices) const {
+  const GlFunctions& gl = device_.gl();
   program.set("width", part_.extent.width);
   program.set("first_row", part_.first_row);
-  device_.gl().UseProgram(program.name());
-  device_.gl().DrawArrays(primitives, 0, static_cast<GLsizei>(vertices));
+  gl.UseProgram(program.name());
+  if (indices == nullptr) {
+    gl.DrawArrays(primitives, 0, static_cast<GLsizei>(vertices));
+  } else {
+    gl.VertexArrayElementBuffer(vertices_.name(), indices->name());
+    gl.DrawElements(primitives, static_cast<GLsizei>(vertices), GL_UNSIGNED_INT, nullptr);
+  }
   // Kernels may write to the buffers that it reads next.
-  device_.gl().MemoryBarrier(GL_ALL_BARRIER_BITS);
+  gl.MemoryBarrier(GL_ALL_BARRIER_BITS);
   device_.check("drawing by fixed functions");
 }
 
 void HardwareTarget::read(Framebuffer& out) {
+  const PhaseScope phase(device_, GlPhase::read);
   const auto depths = part_.of(out.depth.pixels());
   const auto ids = part_.of(out.id.pixels());
   read_depths_.resize(part_.pixels());

@@ -27,7 +27,9 @@ class HardwareTarget {
   void end() const;
 
   /// Draws with `program`: GL_POINTS or GL_TRIANGLES.
-  void draw(const GlProgram& program, GLenum primitives, std::size_t vertices) const;
+  /// @param indices of the vertices; null: they are counted from 0 on
+  void draw(const GlProgram& program, GLenum primitives, std::size_t vertices,
+            const GlBuffer* indices = nullptr) const;
 
   /// Copies the part into the image. @pre `out` has the image's extent
   void read(Framebuffer& out);

@@ -13,8 +13,7 @@ namespace {
 
 constexpr std::size_t kMostClipPlanes = 8;
 
-}  // namespace
-
+/// The view's map to the window, in OpenGL's clip coordinates: -w .. w in x, y and z.
 glm::mat4 clip_from_item(const View& view, const Mat4& world_from_item) {
   Mat4 clip_from_window{1.0};
   clip_from_window[0][0] = 2.0 / view.extent().width;
@@ -23,6 +22,8 @@ glm::mat4 clip_from_item(const View& view, const Mat4& world_from_item) {
   clip_from_window[3] = {-1.0, -1.0, -1.0, 1.0};
   return glm::mat4(clip_from_window * view.homogeneous_window_from_world() * world_from_item);
 }
+
+}  // namespace
 
 NativePainter::NativePainter(const ComputeTools& tools)
     : tools_(tools),
@@ -70,7 +71,6 @@ DrawReport NativePainter::draw(const View& view, std::span<const DrawItem> items
 
 void NativePainter::draw_points(const DrawPoints& points, const glm::mat4& matrix) {
   const GlProgram& drawing = program(true, matrix);
-  drawing.set("has_corners", 0U);
   drawing.set("point_size", points.point_size);
   const std::size_t chunk = tools_.chunk_of(sizeof(Vec3f));
   for (std::size_t begin = 0; begin < points.positions.size(); begin += chunk) {
@@ -86,7 +86,6 @@ void NativePainter::draw_points(const DrawPoints& points, const glm::mat4& matri
 
 void NativePainter::draw_triangles(const DrawTriangles& item, const glm::mat4& matrix) {
   const GlProgram& drawing = program(false, matrix);
-  drawing.set("has_corners", 1U);
   const GlFunctions& gl = tools_.device.gl();
   item.facing == Facing::both ? gl.Disable(GL_CULL_FACE) : gl.Enable(GL_CULL_FACE);
   gl.CullFace(item.facing == Facing::front ? GL_BACK : GL_FRONT);
@@ -103,9 +102,8 @@ void NativePainter::draw_triangles(const DrawTriangles& item, const glm::mat4& m
       corners_.upload(std::span<const Triangle>(part.triangles), "corners");
     }
     tools_.kernels.bind(Binding::positions, positions_);
-    tools_.kernels.bind(Binding::corners, corners_);
     drawing.set("first_id", item.first_id + static_cast<PrimitiveId>(begin));
-    target_.draw(drawing, GL_TRIANGLES, 3 * count);
+    target_.draw(drawing, GL_TRIANGLES, 3 * count, &corners_);
   }
   gl.Disable(GL_CULL_FACE);
 }

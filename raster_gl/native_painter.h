@@ -11,9 +11,6 @@
 
 namespace rangezip {
 
-/// The view's map to the window, in OpenGL's clip coordinates: -w .. w in x, y and z.
-[[nodiscard]] glm::mat4 clip_from_item(const View& view, const Mat4& world_from_item);
-
 /// Draws scenes as any program of OpenGL would: a matrix in floats, OpenGL's own clipping, coverage
 /// and depths. Close to the rules, not equal to them, and not the same on every driver: for
 /// comparisons only. What is dropped is not counted.

@@ -28,26 +28,31 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Seconds {
-  double cpu = std::numeric_limits<double>::infinity();
-  double wall = std::numeric_limits<double>::infinity();
-};
-
 double now(clockid_t clock) {
   timespec time{};
   clock_gettime(clock, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// Processor time is that of all threads of the process.
 Seconds time_of(const Case& one) {
   Seconds seconds;
   run_with_threads(one.threads, [&] {
-    const double wall = now(CLOCK_MONOTONIC), cpu = now(CLOCK_PROCESS_CPUTIME_ID);
+    const Seconds begin = seconds_since_start();
     one.work();
-    seconds = {now(CLOCK_PROCESS_CPUTIME_ID) - cpu, now(CLOCK_MONOTONIC) - wall};
+    seconds = seconds_since_start() - begin;
   });
   return seconds;
+}
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+void take_less(Seconds& best, const Seconds& taken) {
+  best = {std::min(best.cpu, taken.cpu), std::min(best.wall, taken.wall)};
+}
+
+void take_less(Parts& best, const Parts& taken) {
+  for (const auto& [name, seconds] : taken)
+    take_less(best.try_emplace(name, Seconds{kNever, kNever}).first->second, seconds);
 }
 
 /// Threads that have run out of work look for more for a while; that time is not the next case's.
@@ -96,6 +101,14 @@ std::string text_of(const Json& name) {
 
 }  // namespace
 
+Seconds seconds_since_start() {
+  return {now(CLOCK_PROCESS_CPUTIME_ID), now(CLOCK_MONOTONIC)};
+}
+
+Seconds operator-(const Seconds& end, const Seconds& begin) noexcept {
+  return {end.cpu - begin.cpu, end.wall - begin.wall};
+}
+
 std::size_t size_of(const std::vector<Bytes>& input) {
   std::size_t size = 0;
   for (const Bytes bytes : input)
@@ -125,14 +138,15 @@ void Results::measure(const std::vector<Case>& cases, const Effort& effort) {
   const double load_before = load_average();
   const double enough = effort.seconds_per_case * static_cast<double>(cases.size());
   const double begin = now(CLOCK_MONOTONIC);
-  std::vector<Seconds> best(cases.size());
+  std::vector<Seconds> best(cases.size(), {kNever, kNever});
+  std::vector<Parts> best_parts(cases.size());
   int rounds = 0;
   for (; rounds < effort.rounds || now(CLOCK_MONOTONIC) - begin < enough; ++rounds) {
     for (std::size_t i = 0; i < cases.size(); ++i) {
       for (int run = 0; run < effort.runs_per_turn; ++run) {
         if (has_threads) let_threads_fall_asleep();
-        const Seconds taken = time_of(cases[i]);
-        best[i] = {std::min(best[i].cpu, taken.cpu), std::min(best[i].wall, taken.wall)};
+        take_less(best[i], time_of(cases[i]));
+        if (cases[i].parts) take_less(best_parts[i], cases[i].parts());
       }
     }
   }
@@ -140,17 +154,22 @@ void Results::measure(const std::vector<Case>& cases, const Effort& effort) {
     add({.name = cases[i].name,
          .items = cases[i].items,
          .fragments = cases[i].fragments,
-         .cpu_seconds = best[i].cpu,
-         .wall_seconds = best[i].wall,
+         .is_by_wall = cases[i].is_by_wall,
+         .seconds = best[i],
+         .parts = best_parts[i],
          .runs = rounds * effort.runs_per_turn,
          .load_before = load_before,
          .load_after = load_average()});
   }
 }
 
+double Results::rate_seconds(const Row& row) {
+  return row.is_by_wall ? row.seconds.wall : row.seconds.cpu;
+}
+
 void Results::add(const Row& row) {
   std::printf("%-98s %9.1f M/s  %9.3f ms cpu  %9.3f ms wall\n", text_of(row.name).c_str(),
-              row.items / row.cpu_seconds / 1e6, 1e3 * row.cpu_seconds, 1e3 * row.wall_seconds);
+              row.items / rate_seconds(row) / 1e6, 1e3 * row.seconds.cpu, 1e3 * row.seconds.wall);
   std::fflush(stdout);
   const auto same = std::find_if(rows_.begin(), rows_.end(),
                                  [&](const Row& other) { return other.name == row.name; });
@@ -158,8 +177,8 @@ void Results::add(const Row& row) {
     rows_.push_back(row);
     return;
   }
-  same->cpu_seconds = std::min(same->cpu_seconds, row.cpu_seconds);
-  same->wall_seconds = std::min(same->wall_seconds, row.wall_seconds);
+  take_less(same->seconds, row.seconds);
+  take_less(same->parts, row.parts);
   same->runs += row.runs;
   same->load_after = row.load_after;
 }
@@ -172,12 +191,16 @@ const Results::Row* Results::find(const Json& name) const {
 
 Json Results::json_of(const Row& row) {
   Json json = row.name;
-  json["cpu_seconds"] = row.cpu_seconds;
-  json["wall_seconds"] = row.wall_seconds;
-  json["million_per_second"] = to_thousandths(row.items / row.cpu_seconds / 1e6);
+  json["cpu_seconds"] = row.seconds.cpu;
+  json["wall_seconds"] = row.seconds.wall;
+  json["million_per_second"] = to_thousandths(row.items / rate_seconds(row) / 1e6);
+  if (row.is_by_wall) json["rate_by"] = "wall";
+  for (const auto& [name, seconds] : row.parts) {
+    json["parts"][name] = {{"cpu_seconds", seconds.cpu}, {"wall_seconds", seconds.wall}};
+  }
   if (row.fragments > 0.0) {
     json["fragments"] = row.fragments;
-    json["pixels_per_second"] = std::round(row.fragments / row.cpu_seconds);
+    json["pixels_per_second"] = std::round(row.fragments / rate_seconds(row));
   }
   json["runs"] = row.runs;
   json["load"] = {row.load_before, row.load_after};
@@ -190,7 +213,7 @@ Json Results::rows() const {
     Json json = json_of(row);
     if (row.name.contains("bytes")) {
       const Row* const limit = find({{"what", "reading"}, {"bytes", row.name["bytes"]}});
-      if (limit != nullptr) json["of_read_limit"] = limit->cpu_seconds / row.cpu_seconds;
+      if (limit != nullptr) json["of_read_limit"] = limit->seconds.cpu / row.seconds.cpu;
     }
     rows.push_back(std::move(json));
   }

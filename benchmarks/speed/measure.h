@@ -2,11 +2,24 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace rangezip::benchmark {
+
+/// Processor time of all threads of the process, and wall time.
+struct Seconds {
+  double cpu = 0.0;
+  double wall = 0.0;
+};
+[[nodiscard]] Seconds seconds_since_start();
+[[nodiscard]] Seconds operator-(const Seconds& end, const Seconds& begin) noexcept;
+
+/// What the parts of a run took, by name.
+using Parts = std::map<std::string, Seconds>;
 
 /// One thing to measure.
 struct Case {
@@ -15,6 +28,9 @@ struct Case {
   std::function<void()> work;
   int threads = 1;
   double fragments = 0.0;  ///< pixels that the triangles cover; 0: not counted
+  /// Rates are by wall time: several threads share the work, or a device does it.
+  bool is_by_wall = false;
+  std::function<Parts()> parts = {};  ///< those of the last run, if they are known
 };
 
 /// How long a group is measured: until both the rounds and the time are reached.
@@ -45,14 +61,16 @@ class Results {
     nlohmann::ordered_json name;
     double items = 0.0;
     double fragments = 0.0;
-    double cpu_seconds = 0.0;
-    double wall_seconds = 0.0;
+    bool is_by_wall = false;
+    Seconds seconds;
+    Parts parts;
     int runs = 0;
     double load_before = 0.0;  ///< load average of the machine
     double load_after = 0.0;
   };
 
   void add(const Row& row);
+  [[nodiscard]] static double rate_seconds(const Row& row);
   [[nodiscard]] static nlohmann::ordered_json json_of(const Row& row);
   [[nodiscard]] const Row* find(const nlohmann::ordered_json& name) const;
 

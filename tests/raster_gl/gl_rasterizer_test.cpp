@@ -1,5 +1,6 @@
 #include "raster_gl/gl_rasterizer.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <memory>
@@ -212,6 +213,35 @@ TEST_CASE("uploads that find no room push out those unused for longest") {
   CHECK(uploads_for(3) == 1);  // in place of 2
   CHECK(uploads_for(1) == 0);
   CHECK(uploads_for(2) == 1);
+}
+
+TEST_CASE("an observer is told the phases of a drawing, in which what is kept is not uploaded") {
+  constexpr Extent kExtent{20, 16};
+  const View view = lattice::view(kExtent);
+  const std::vector<Vec3f> positions(10, Vec3f{1, 1, 1});
+  DrawPoints points = lattice::points(kExtent, positions);
+  points.content_key = 44;
+  const std::vector<DrawItem> items{points};
+  for (const GlStrategy strategy :
+       {GlStrategy::compute, GlStrategy::fixed_function, GlStrategy::native}) {
+    CAPTURE(name_of(strategy));
+    std::vector<GlPhase> phases;
+    GlRasterizer rasterizer(
+        make_gl_context("osmesa"),
+        {.strategy = strategy, .phase_observer = [&](GlPhase phase) { phases.push_back(phase); }});
+    std::vector<std::ptrdiff_t> uploads;
+    for (int round = 0; round < 2; ++round) {
+      phases.clear();
+      CHECK(rasterizer.render(view, items).id[{0, 0}] == 0);
+      REQUIRE(phases.size() > 4);
+      CHECK(phases.front() == GlPhase::draw);
+      // The image comes last; after it the drawing goes on, with nothing left to do.
+      CHECK(phases[phases.size() - 2] == GlPhase::read);
+      CHECK(phases.back() == GlPhase::draw);
+      uploads.push_back(std::count(phases.begin(), phases.end(), GlPhase::upload));
+    }
+    CHECK(uploads[1] == uploads[0] - 1);
+  }
 }
 
 }  // namespace
