@@ -166,8 +166,8 @@ def rate_table(results, context):
 
 
 def phase_table(results, context, has_all):
-    heads = (f'{context["context"]}, nothing kept, ms', 'strategy', 'upload', 'drawing', 'read-back',
-             'the whole call', 'with the scene kept')
+    heads = (f'{context["context"]}, nothing kept, ms', 'strategy', 'upload', 'drawing',
+             'read-back', 'the whole call', 'with the scene kept')
     scenes = results.scenes(context)
     if not has_all:  # the first of each kind
         kinds = [scene['scene'] for scene in scenes]

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Builds the preset `release`, runs the benchmarks of speed, stores their results as
 # benchmarks/results/<what>-<machine>.json (<what>-full for full), and prints README.md's tables of
-# them; what the benchmarks say meanwhile goes to the error stream. quick takes about five minutes and
-# 1 GB on a quiet machine, full hours.
+# them; what the benchmarks say meanwhile goes to the error stream. quick takes about five minutes
+# and 1 GB on a quiet machine, full hours.
 #   WHAT: raster (the CPU rasterizer), io, backends (OpenGL beside the CPU), pipeline (whole runs by
 #   each backend); default: all
 #   --readme: also puts the tables into README.md, in the place of those there; quick only

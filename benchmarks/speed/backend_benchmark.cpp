@@ -2,8 +2,8 @@
 // every OpenGL context that starts here by each strategy; upload, drawing and read-back apart, with
 // the scene kept on the device and with nothing kept.
 //   backend_benchmark [quick|full] [--only CONTEXT]... [--json FILE] [--revision TEXT]
-// quick: the scenes with a target; full: also the ladder of sizes. CONTEXT: a name such as osmesa or
-// egl:0. Mesa's software renderer draws on the calling thread, so that processor time is that of
+// quick: the scenes with a target; full: also the ladder of sizes. CONTEXT: a name such as osmesa,
+// or egl:0. Mesa's software renderer draws on the calling thread, so that processor time is that of
 // one core, unless LP_NUM_THREADS says otherwise.
 // The limits stand in the same run: reading and copying memory, and for each context the copy of
 // one buffer of the device to another. Exact strategies must give the CPU rasterizer's image.
