@@ -6,7 +6,7 @@
 
 #include "core/base/error.h"
 #include "raster_gl/gathered_triangles.h"
-#include "raster_gl/hardware_text.h"
+#include "raster_gl/shader_text.h"
 
 namespace rangezip {
 

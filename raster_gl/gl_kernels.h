@@ -41,7 +41,7 @@ enum class Counter : std::uint8_t {
   rejected_points,     ///< by R3 or R4
   rejected_triangles,  ///< with a corner that is rejected
   tiles,               ///< that large triangles need, whether there was room or not
-  outside_triangles,   ///< that are not wholly inside of the viewport (hardware_text.h)
+  outside_triangles,   ///< that are not wholly inside of the viewport (shader_text.h)
   full_pixel,          ///< 1 + number of a pixel that has more points than R13 allows, or 0
 };
 inline constexpr std::size_t kCounters = 5;

@@ -1,6 +1,4 @@
-#include "raster_gl/hardware_text.h"
-
-#include "raster_gl/gl_kernels.h"
+#include "raster_gl/shader_parts.h"
 
 namespace rangezip::shader_text {
 
@@ -33,26 +31,6 @@ void main() {
   id = first_id + uint(gl_VertexID);
   gl_PointSize = float(point_size);
   gl_Position = is_drawn ? clip_position(256 * first + 128 * point_size, p.z) : OUTSIDE;
-}
-)";
-
-constexpr const char* kBand = R"(
-layout(location = 0) out uint winner;
-uniform int width;
-uniform int first_row;
-#if HAS_BAND
-layout(std430, binding = LOWER) readonly buffer Lower { int lower[]; };
-layout(std430, binding = UPPER) readonly buffer Upper { int upper[]; };
-#endif
-
-// R12 at the fragment's pixel.
-bool is_in_band(int depth) {
-#if HAS_BAND
-  uint pixel = uint(gl_FragCoord.y) * uint(width) + uint(gl_FragCoord.x);
-  return depth >= lower[pixel] && depth <= upper[pixel];
-#else
-  return true;
-#endif
 }
 )";
 
@@ -133,79 +111,21 @@ void main() {
 }
 )";
 
-constexpr const char* kNativeVertex = R"(
-layout(std430, binding = POSITIONS) readonly buffer Positions { float positions[]; };
-layout(std430, binding = CORNERS) readonly buffer Corners { uint corners[]; };
-layout(std430, binding = ROWS) readonly buffer Planes { vec4 planes[]; };
-uniform mat4 clip_from_item;
-uniform uint has_corners;
-uniform uint clip_planes;
-uniform uint first_id;
-uniform int point_size;
-layout(location = 0) flat out uint id;
-out float gl_ClipDistance[8];
-
-void main() {
-  uint i = 3u * (has_corners != 0u ? corners[gl_VertexID] : uint(gl_VertexID));
-  vec4 position = vec4(positions[i], positions[i + 1u], positions[i + 2u], 1.0);
-  for (uint plane = 0u; plane < 8u; ++plane) {
-    gl_ClipDistance[plane] = plane < clip_planes ? dot(planes[plane], position) : 1.0;
-  }
-  id = first_id + uint(gl_VertexID);
-  gl_PointSize = float(point_size);
-  gl_Position = clip_from_item * position;
-}
-)";
-
-constexpr const char* kNativeFragment = R"(
-#if OF_POINTS
-layout(location = 0) flat in uint id;
-#else
-uniform uint first_id;
-#endif
-void main() {
-  if (!is_in_band(int(gl_FragCoord.z * 16777216.0))) discard;
-#if OF_POINTS
-  winner = id;
-#else
-  winner = first_id + uint(gl_PrimitiveID);
-#endif
-}
-)";
-
-std::string prelude(const ShaderVariant& variant) {
-  std::string text =
-      "#version 450 core\n"
-      "#extension GL_ARB_gpu_shader_int64 : require\n";
-  const auto define = [&](const char* name, int value) {
-    text += "#define " + std::string(name) + " " + std::to_string(value) + "\n";
-  };
-  define("VIEWPORT_MARGIN", kViewportMargin);
-  define("VIEWPORT_SIZE", kViewportSize);
-  define("HAS_BAND", variant.has_band ? 1 : 0);
-  return text + kernel_definitions() + "const int REJECTED_X = -(1 << 30);\n";
-}
-
 }  // namespace
 
 std::string fixed_point_vertex() {
-  return prelude({}) + kFixedVertex + kFixedPointVertex;
+  return hardware_beginning({}) + kFixedVertex + kFixedPointVertex;
 }
 std::string fixed_point_fragment(const ShaderVariant& variant) {
-  return prelude(variant) + kBand + kFixedPointFragment;
+  return hardware_beginning(variant) + fragment_output() + kFixedPointFragment;
 }
 std::string fixed_triangle_vertex() {
-  return prelude({}) + kFixedVertex + kCorners + inside_viewport() + kFixedTriangleVertex;
+  return hardware_beginning({}) + kFixedVertex + kCorners + inside_viewport() +
+         kFixedTriangleVertex;
 }
 std::string fixed_triangle_fragment(const ShaderVariant& variant) {
-  return prelude(variant) + kBand + kFixedTriangleFragment + kCorners + kFixedTriangleMain;
-}
-std::string native_vertex() {
-  return prelude({}) + kNativeVertex;
-}
-std::string native_fragment(const ShaderVariant& variant, bool of_points) {
-  return prelude(variant) + "#define OF_POINTS " + (of_points ? "1\n" : "0\n") + kBand +
-         kNativeFragment;
+  return hardware_beginning(variant) + fragment_output() + kFixedTriangleFragment + kCorners +
+         kFixedTriangleMain;
 }
 
 }  // namespace rangezip::shader_text
