@@ -53,7 +53,10 @@ std::size_t ComputePainter::draw_points(const DrawPoints& points, const RowTrans
         tools_.uploads.get({.content_key = points.content_key, .first = begin, .count = count},
                            points.positions.subspan(begin, count));
     for (const DrawPass pass : target_.passes()) {
-      const GlProgram& program = target_.kernel(Kernel::draw_points, pass, points.point_size == 1);
+      ShaderVariant variant = rows_.variant(tools_.setup);
+      variant.pass = pass;
+      variant.single_pixels = points.point_size == 1;
+      const GlProgram& program = target_.kernel(Kernel::draw_points, variant);
       rows_.bind(tools_.kernels, program, positions);
       program.set("count", static_cast<unsigned>(count));
       program.set("first_id", points.first_id + static_cast<PrimitiveId>(begin));

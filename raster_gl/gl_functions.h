@@ -62,6 +62,7 @@ namespace rangezip {
   X(gl, NamedRenderbufferStorage)     \
   X(gl, ProgramUniform1i)             \
   X(gl, ProgramUniform1ui)            \
+  X(gl, ProgramUniform4uiv)           \
   X(gl, ProgramUniformMatrix4fv)      \
   X(gl, ReadPixels)                   \
   X(gl, ShaderSource)                 \

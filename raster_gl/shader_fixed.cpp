@@ -5,7 +5,7 @@ namespace rangezip::shader_text {
 namespace {
 
 constexpr const char* kFixedVertex = R"(
-layout(std430, binding = SNAPPED) readonly buffer Snapped { int snapped[]; };
+layout(std430, binding = SNAPPED) readonly buffer Snapped { ivec4 snapped[]; };
 
 // A place in 1/256 pixel and a depth, as OpenGL takes them; no operation rounds.
 vec4 clip_position(ivec2 at, int depth) {
@@ -13,7 +13,7 @@ vec4 clip_position(ivec2 at, int depth) {
   return vec4(in_viewport - 1.0, float(depth) * (1.0 / 16777216.0), 1.0);
 }
 
-const vec4 OUTSIDE = vec4(4.0, 4.0, 4.0, 1.0);
+const vec4 NOWHERE = vec4(4.0, 4.0, 4.0, 1.0);
 )";
 
 // R5: the square is given by its middle, so that all of its sides lie half a pixel away from every
@@ -24,13 +24,12 @@ uniform uint first_id;
 layout(location = 0) flat out uint id;
 
 void main() {
-  uint i = 3u * uint(gl_VertexID);
-  ivec3 p = ivec3(snapped[i], snapped[i + 1u], snapped[i + 2u]);
+  ivec4 p = snapped[gl_VertexID];
   ivec2 first = (p.xy - 128 * (point_size - 1)) >> 8;
-  bool is_drawn = p.x != REJECTED_X && uint(p.z) <= 0xffffffu;
+  bool is_drawn = p.w != PLACE_REJECTED && uint(p.z) <= 0xffffffu;
   id = first_id + uint(gl_VertexID);
   gl_PointSize = float(point_size);
-  gl_Position = is_drawn ? clip_position(256 * first + 128 * point_size, p.z) : OUTSIDE;
+  gl_Position = is_drawn ? clip_position(256 * first + 128 * point_size, p.z) : NOWHERE;
 }
 )";
 
@@ -42,71 +41,54 @@ void main() {
 }
 )";
 
-constexpr const char* kCorners = R"(
-layout(std430, binding = CORNERS) readonly buffer Corners { uint corners[]; };
-
-ivec3 corner(uint i) {
-  uint at = 3u * corners[i];
-  return ivec3(snapped[at], snapped[at + 1u], snapped[at + 2u]);
-}
-)";
-
-// The depth only has to pass OpenGL's clipping: the fragment brings its own.
+// The depth only has to pass OpenGL's clipping: the fragment brings its own. It is computed from
+// the corners, which every vertex brings along.
 constexpr const char* kFixedTriangleVertex = R"(
-uniform uint all_inside;
+layout(std430, binding = CORNERS) readonly buffer Corners { uint corners[]; };
+uniform uint first_id;
+layout(location = 0) flat out ivec3 corner_a;
+layout(location = 1) flat out ivec3 corner_b;
+layout(location = 2) flat out ivec3 corner_c;
+layout(location = 3) flat out uint id;
 
 void main() {
-  uint first = uint(gl_VertexID) / 3u * 3u;
-  ivec3 p = corner(uint(gl_VertexID));
-  bool is_drawn = all_inside != 0u || (is_inside(corner(first)) && is_inside(corner(first + 1u)) &&
-                                       is_inside(corner(first + 2u)));
-  gl_Position = is_drawn ? clip_position(p.xy, clamp(p.z, 0, 0xffffff)) : OUTSIDE;
+  uint triangle = uint(gl_VertexID) / 3u;
+  uint first = 3u * triangle;
+  ivec4 a = snapped[corners[first]];
+  ivec4 b = snapped[corners[first + 1u]];
+  ivec4 c = snapped[corners[first + 2u]];
+  ivec4 p = uint(gl_VertexID) == first ? a : uint(gl_VertexID) == first + 1u ? b : c;
+  bool is_drawn = max(a.w, max(b.w, c.w)) == PLACE_INSIDE;
+  gl_Position = is_drawn ? clip_position(p.xy, clamp(p.z, 0, 0xffffff)) : NOWHERE;
+  corner_a = a.xyz;
+  corner_b = b.xyz;
+  corner_c = c.xyz;
+  id = first_id + triangle;
 }
 )";
 
 constexpr const char* kFixedTriangleFragment = R"(
-layout(std430, binding = SNAPPED) readonly buffer Snapped { int snapped[]; };
-)";
-
-// R7. Corners lie within 2^22 of each other: the numerator takes two digits of base 2^13.
-constexpr const char* kFixedTriangleMain = R"(
-uniform uint first_id;
-
-int64_t edge(ivec2 from, ivec2 to, ivec2 at) {
-  return int64_t(to.x - from.x) * int64_t(at.y - from.y) -
-         int64_t(to.y - from.y) * int64_t(at.x - from.x);
-}
-
-int divide(int64_t eb, int64_t ec, int64_t area, ivec3 z) {
-  int64_t ea = area - eb - ec;
-  ivec3 high = z >> 13;
-  ivec3 low = z & 8191;
-  int64_t n = ea * int64_t(high.x) + eb * int64_t(high.y) + ec * int64_t(high.z);
-  int64_t q = n / area;
-  int64_t rest = (n - q * area) << 13;
-  rest += ea * int64_t(low.x) + eb * int64_t(low.y) + ec * int64_t(low.z);
-  return (int(q) << 13) + int(rest / area);
-}
+layout(location = 0) flat in ivec3 corner_a;
+layout(location = 1) flat in ivec3 corner_b;
+layout(location = 2) flat in ivec3 corner_c;
+layout(location = 3) flat in uint id;
 
 void main() {
-  uint triangle = uint(gl_PrimitiveID);
-  ivec3 a = corner(3u * triangle);
-  ivec3 b = corner(3u * triangle + 1u);
-  ivec3 c = corner(3u * triangle + 2u);
   ivec2 at = (ivec2(gl_FragCoord.xy) + ivec2(0, first_row)) * 256 + 128;
-  int64_t area = edge(a.xy, b.xy, c.xy);
-  int64_t eb = edge(c.xy, a.xy, at);
-  int64_t ec = edge(a.xy, b.xy, at);
-  if (area == 0L) discard;
+  int64_t area = edge(corner_a.xy, corner_b.xy, corner_c.xy);
+  int64_t eb = edge(corner_c.xy, corner_a.xy, at);
+  int64_t ec = edge(corner_a.xy, corner_b.xy, at);
   if (area < 0L) {
     area = -area;
     eb = -eb;
     ec = -ec;
   }
-  int z_min = min(a.z, min(b.z, c.z));
-  int depth = z_min + divide(eb, ec, area, ivec3(a.z, b.z, c.z) - z_min);
+  int z_min = min(corner_a.z, min(corner_b.z, corner_c.z));
+  ivec3 z = ivec3(corner_a.z, corner_b.z, corner_c.z) - z_min;
+  int64_t remainder;
+  int depth = z_min + divide(area - eb - ec, eb, ec, area, z, remainder);
   if (uint(depth) > 0xffffffu || !is_in_band(depth)) discard;
-  winner = first_id + triangle;
+  winner = id;
   gl_FragDepth = float(depth) * (1.0 / 16777216.0);
 }
 )";
@@ -120,12 +102,11 @@ std::string fixed_point_fragment(const ShaderVariant& variant) {
   return hardware_beginning(variant) + fragment_output() + kFixedPointFragment;
 }
 std::string fixed_triangle_vertex() {
-  return hardware_beginning({}) + kFixedVertex + kCorners + inside_viewport() +
-         kFixedTriangleVertex;
+  return hardware_beginning({}) + kFixedVertex + kFixedTriangleVertex;
 }
 std::string fixed_triangle_fragment(const ShaderVariant& variant) {
-  return hardware_beginning(variant) + fragment_output() + kFixedTriangleFragment + kCorners +
-         kFixedTriangleMain;
+  return hardware_beginning(variant) + fragment_output() + depth_division() +
+         kFixedTriangleFragment;
 }
 
 }  // namespace rangezip::shader_text

@@ -7,21 +7,25 @@ namespace {
 constexpr const char* kNativeVertex = R"(
 layout(std430, binding = POSITIONS) readonly buffer Positions { float positions[]; };
 layout(std430, binding = CORNERS) readonly buffer Corners { uint corners[]; };
-layout(std430, binding = ROWS) readonly buffer Planes { vec4 planes[]; };
+#if HAS_CLIP_PLANES
+layout(std430, binding = CLIP_ROWS) readonly buffer Planes { vec4 planes[]; };
+uniform uint clip_planes;
+out float gl_ClipDistance[8];
+#endif
 uniform mat4 clip_from_item;
 uniform uint has_corners;
-uniform uint clip_planes;
 uniform uint first_id;
 uniform int point_size;
 layout(location = 0) flat out uint id;
-out float gl_ClipDistance[8];
 
 void main() {
   uint i = 3u * (has_corners != 0u ? corners[gl_VertexID] : uint(gl_VertexID));
   vec4 position = vec4(positions[i], positions[i + 1u], positions[i + 2u], 1.0);
+#if HAS_CLIP_PLANES
   for (uint plane = 0u; plane < 8u; ++plane) {
     gl_ClipDistance[plane] = plane < clip_planes ? dot(planes[plane], position) : 1.0;
   }
+#endif
   id = first_id + uint(gl_VertexID);
   gl_PointSize = float(point_size);
   gl_Position = clip_from_item * position;
@@ -46,8 +50,8 @@ void main() {
 
 }  // namespace
 
-std::string native_vertex() {
-  return hardware_beginning({}) + kNativeVertex;
+std::string native_vertex(const ShaderVariant& variant) {
+  return hardware_beginning(variant) + kNativeVertex;
 }
 std::string native_fragment(const ShaderVariant& variant, bool of_points) {
   return hardware_beginning(variant) + "#define OF_POINTS " + (of_points ? "1\n" : "0\n") +

@@ -9,9 +9,6 @@ constexpr const char* kVersion = R"(#version 450 core
 #extension GL_ARB_gpu_shader_int64 : require
 )";
 
-// In place of the x of a position that is rejected.
-constexpr const char* kRejected = "const int REJECTED_X = -(1 << 30);\n";
-
 constexpr const char* kInvocation = R"(
 layout(local_size_x = GROUP_SIZE) in;
 uniform uint count;  // points, positions, triangles or tiles
@@ -60,7 +57,9 @@ std::string kernel_beginning(const ShaderVariant& variant, std::size_t group_siz
   text += define("SINGLE_PIXELS", variant.single_pixels ? 1 : 0);
   text += define("OUTSIDE_ONLY", variant.outside_only ? 1 : 0);
   text += define("WIDE_ROWS", variant.wide_rows ? 1 : 0);
-  return text + kernel_definitions() + kRejected + kInvocation;
+  text += define("IS_CENTRAL", variant.is_central ? 1 : 0);
+  text += define("HAS_CLIP_PLANES", variant.has_clip_planes ? 1 : 0);
+  return text + kernel_definitions() + kInvocation;
 }
 
 std::string hardware_beginning(const ShaderVariant& variant) {
@@ -68,7 +67,8 @@ std::string hardware_beginning(const ShaderVariant& variant) {
   text += define("VIEWPORT_MARGIN", kViewportMargin);
   text += define("VIEWPORT_SIZE", kViewportSize);
   text += define("HAS_BAND", variant.has_band ? 1 : 0);
-  return text + kernel_definitions() + kRejected;
+  text += define("HAS_CLIP_PLANES", variant.has_clip_planes ? 1 : 0);
+  return text + kernel_definitions();
 }
 
 std::string fragment_output() {

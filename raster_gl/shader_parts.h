@@ -21,8 +21,8 @@ namespace rangezip::shader_text {
 /// Corners3, corners_of(), Setup, set_up(): a triangle ready to be drawn (R6). Needs plotting().
 [[nodiscard]] std::string triangle_setup();
 
-/// is_inside(corner): whether the hardware draws a triangle of such corners whole, unclipped.
-[[nodiscard]] std::string inside_viewport();
+/// edge(), divide(): a triangle's depth at a pixel (R7).
+[[nodiscard]] std::string depth_division();
 
 /// What vertex and fragment shaders begin with: version and definitions.
 [[nodiscard]] std::string hardware_beginning(const ShaderVariant& variant);

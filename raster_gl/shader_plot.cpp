@@ -35,7 +35,7 @@ void plot(int x, int y, int depth, uint id) {
 #elif PASS == PASS_DEPTH
   if (uint(depth) < depths[pixel]) atomicMin(depths[pixel], uint(depth));
 #else
-  if (uint(depth) == depths[pixel] && id < winners[pixel]) atomicMin(winners[pixel], id);
+  if (uint(depth) == depths[pixel]) atomicMin(winners[pixel], id);
 #endif
 }
 )";

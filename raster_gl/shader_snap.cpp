@@ -50,21 +50,31 @@ number rounded(number value) { return value; }
 
 constexpr const char* kSnap = R"(
 layout(std430, binding = POSITIONS) readonly buffer Positions { uint positions[]; };
-layout(std430, binding = ROWS) readonly buffer Rows { uint rows[]; };  // x, y, z, w, clip planes
-uniform uint is_central;
+uniform uvec4 rows[4];  // R1: x, y, z, w, as the bits of floats
+#if HAS_CLIP_PLANES
+layout(std430, binding = CLIP_ROWS) readonly buffer ClipRows { uvec4 clip_rows[]; };
 uniform uint clip_planes;
+#endif
 
 // R2: every operation is rounded on its own.
-number row_product(uint row, number x, number y, number z) {
-  precise number mx = rounded(to_number(rows[4u * row]) * x);
-  precise number my = rounded(to_number(rows[4u * row + 1u]) * y);
-  precise number mz = rounded(to_number(rows[4u * row + 2u]) * z);
-  precise number xy = rounded(mx + my);
-  precise number xyz = rounded(xy + mz);
-  precise number sum = rounded(xyz + to_number(rows[4u * row + 3u]));
-  return sum;
+number rounded_product(number a, number b) {
+  precise number exact = a * b;
+  return rounded(exact);
 }
 
+number rounded_sum(number a, number b) {
+  precise number exact = a + b;
+  return rounded(exact);
+}
+
+number row_product(uvec4 row, number x, number y, number z) {
+  number xy = rounded_sum(rounded_product(to_number(row.x), x),
+                          rounded_product(to_number(row.y), y));
+  number xyz = rounded_sum(xy, rounded_product(to_number(row.z), z));
+  return rounded_sum(xyz, to_number(row.w));
+}
+
+#if IS_CENTRAL
 // R4: floor(v / w + 1/2) of the exact quotient. The candidate is at most one off; both products
 // are exact.
 int round_quotient(double v, double w) {
@@ -78,40 +88,45 @@ int round_quotient(double v, double w) {
   }
   return int(q);
 }
+#endif
 
-// Position number i on the window's grid by R3 or R4; `rejected` if they reject it.
+// Position number i on the window's grid by R3 or R4; `rejected` if they reject it, `clipped` if R11
+// does.
 ivec3 snap(uint i, out bool rejected, out bool clipped) {
   number px = to_number(positions[3u * i]);
   number py = to_number(positions[3u * i + 1u]);
   number pz = to_number(positions[3u * i + 2u]);
   clipped = false;
+#if HAS_CLIP_PLANES
   for (uint plane = 0u; plane < clip_planes; ++plane) {
-    clipped = clipped || !(row_product(4u + plane, px, py, pz) >= number(0.0));  // R11
+    clipped = clipped || !(row_product(clip_rows[plane], px, py, pz) >= number(0.0));
   }
-  number x = row_product(0u, px, py, pz);
-  number y = row_product(1u, px, py, pz);
-  number z = row_product(2u, px, py, pz);
+#endif
+  number x = row_product(rows[0], px, py, pz);
+  number y = row_product(rows[1], px, py, pz);
+  number z = row_product(rows[2], px, py, pz);
   // Written so that NaN is rejected.
-  if (is_central == 0u) {
-    rejected = !(abs(x) <= number(4194304.0) && abs(y) <= number(4194304.0) &&
-                 abs(z) <= number(33554432.0));
-    if (rejected) return ivec3(REJECTED_X, 0, 0);
-    return ivec3(int(roundEven(x)), int(roundEven(y)), int(roundEven(z)));
-  }
-  double w = double(row_product(3u, px, py, pz));
+#if IS_CENTRAL
+  double w = double(row_product(rows[3], px, py, pz));
   const double least = packDouble2x32(uvec2(0u, (1023u - 64u) << 20));
   const double greatest = packDouble2x32(uvec2(0u, (1023u + 64u) << 20));
   double max_xy = 4194304.0LF * w;
   rejected = !(w >= least && w <= greatest && abs(double(x)) <= max_xy &&
                abs(double(y)) <= max_xy && abs(double(z)) <= 33554432.0LF * w);
-  if (rejected) return ivec3(REJECTED_X, 0, 0);
+  if (rejected) return ivec3(0);
   return ivec3(round_quotient(double(x), w), round_quotient(double(y), w),
                round_quotient(double(z), w));
+#else
+  rejected = !(abs(x) <= number(4194304.0) && abs(y) <= number(4194304.0) &&
+               abs(z) <= number(33554432.0));
+  if (rejected) return ivec3(0);
+  return ivec3(int(roundEven(x)), int(roundEven(y)), int(roundEven(z)));
+#endif
 }
 )";
 
 constexpr const char* kSnapMain = R"(
-layout(std430, binding = SNAPPED) writeonly buffer Snapped { int snapped[]; };
+layout(std430, binding = SNAPPED) writeonly buffer Snapped { ivec4 snapped[]; };
 layout(std430, binding = COUNTERS) buffer Counters { uint counters[]; };
 uniform uint is_counting;
 
@@ -120,12 +135,21 @@ void main() {
   if (i >= count) return;
   bool rejected, clipped;
   ivec3 p = snap(i, rejected, clipped);
-  if (rejected && is_counting != 0u) atomicAdd(counters[REJECTED_POINTS], 1u);
-  snapped[3u * i] = clipped ? REJECTED_X : p.x;
-  snapped[3u * i + 1u] = p.y;
-  snapped[3u * i + 2u] = p.z;
+  int place = rejected || clipped ? PLACE_REJECTED : is_inside(p.xy) ? PLACE_INSIDE : PLACE_OUTSIDE;
+  snapped[i] = ivec4(p, place);
+  if (is_counting == 0u) return;
+  if (rejected) atomicAdd(counters[REJECTED_POINTS], 1u);
+  if (place != PLACE_INSIDE) atomicAdd(counters[OUTSIDE_POSITIONS], 1u);
 }
 )";
+
+/// is_inside(): whether the hardware draws a triangle of such corners whole, unclipped.
+std::string inside_viewport() {
+  constexpr int kFirst = -256 * kViewportMargin;
+  constexpr int kLast = 256 * (kViewportSize - kViewportMargin);
+  return "bool is_inside(ivec2 p) {\n  return all(greaterThan(p, ivec2(" + std::to_string(kFirst) +
+         "))) && all(lessThan(p, ivec2(" + std::to_string(kLast) + ")));\n}\n";
+}
 
 }  // namespace
 
@@ -134,7 +158,7 @@ std::string snapping() {
 }
 
 std::string snap_positions(const ShaderVariant& variant) {
-  return kernel_beginning(variant, kPointGroup) + snapping() + kSnapMain;
+  return kernel_beginning(variant, kPointGroup) + snapping() + inside_viewport() + kSnapMain;
 }
 
 }  // namespace rangezip::shader_text

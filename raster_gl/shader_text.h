@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <string>
 
 namespace rangezip {
@@ -15,9 +16,13 @@ enum class DrawPass {
 struct ShaderVariant {
   DrawPass pass = DrawPass::depth;
   bool has_band = false;       ///< R12
-  bool outside_only = false;   ///< triangles that fixed functions leave out (inside_viewport())
+  bool outside_only = false;   ///< triangles that fixed functions leave out (Place)
   bool single_pixels = false;  ///< points of size 1, the bulk of a large cloud
   bool wide_rows = false;      ///< R2 in double precision, for drivers whose floats flush denormals
+  bool is_central = false;     ///< R4, else R3; of programs that snap positions
+  bool has_clip_planes = false;  ///< R11; of programs that snap positions
+
+  friend auto operator<=>(const ShaderVariant&, const ShaderVariant&) = default;
 };
 
 /// Pixels between the borders of the image and those of the viewport, to the left and below, in
@@ -35,7 +40,6 @@ namespace shader_text {
 [[nodiscard]] std::string snap_positions(const ShaderVariant& variant);
 [[nodiscard]] std::string draw_points(const ShaderVariant& variant);
 [[nodiscard]] std::string classify_triangles(const ShaderVariant& variant);
-[[nodiscard]] std::string count_outside(const ShaderVariant& variant);
 [[nodiscard]] std::string draw_small_triangles(const ShaderVariant& variant);
 [[nodiscard]] std::string draw_tiles(const ShaderVariant& variant);
 [[nodiscard]] std::string sum_points(const ShaderVariant& variant);
@@ -50,7 +54,7 @@ namespace shader_text {
 
 // The same as any program of OpenGL would have them: a matrix, and the driver's own rounding
 // everywhere.
-[[nodiscard]] std::string native_vertex();
+[[nodiscard]] std::string native_vertex(const ShaderVariant& variant);
 /// @param of_points the ID is the vertex's number, else the primitive's
 [[nodiscard]] std::string native_fragment(const ShaderVariant& variant, bool of_points);
 

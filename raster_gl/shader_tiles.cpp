@@ -10,11 +10,6 @@ namespace {
 constexpr const char* kTiles = R"(
 layout(std430, binding = TILES) readonly buffer Tiles { uvec2 tiles[]; };
 
-int64_t edge(ivec2 from, ivec2 to, ivec2 at) {
-  return int64_t(to.x - from.x) * int64_t(at.y - from.y) -
-         int64_t(to.y - from.y) * int64_t(at.x - from.x);
-}
-
 // The part of the columns [span.x, span.y] where margin + step * (x - span.x) >= 0.
 ivec2 inside_edge(ivec2 span, int64_t margin, int64_t steps) {
   int64_t last = int64_t(span.y - span.x);
@@ -25,21 +20,6 @@ ivec2 inside_edge(ivec2 span, int64_t margin, int64_t steps) {
   }
   int64_t leave = margin < 0L ? -1L : margin / -steps;
   return ivec2(span.x, span.x + int(min(leave, last)));
-}
-
-// R7's quotient and remainder by two digits of base 2^13.
-void divide(int64_t e[3], int z[3], int64_t area, out int quotient, out int64_t remainder) {
-  int64_t high = 0L;
-  int64_t low = 0L;
-  for (int i = 0; i < 3; ++i) {
-    high += e[i] * int64_t(z[i] >> 13);
-    low += e[i] * int64_t(z[i] & 8191);
-  }
-  int64_t high_quotient = high / area;
-  low += (high - high_quotient * area) << 13;
-  int64_t low_quotient = low / area;
-  quotient = (int(high_quotient) << 13) + int(low_quotient);
-  remainder = low - low_quotient * area;
 }
 
 void main() {
@@ -61,17 +41,15 @@ void main() {
     if (span.x > span.y) return;
   }
   int z_min = min(s.a.z, min(s.b.z, s.c.z));
-  int z[3] = int[3](s.a.z - z_min, s.b.z - z_min, s.c.z - z_min);
+  ivec3 z = ivec3(s.a.z, s.b.z, s.c.z) - z_min;
   int64_t e[3];
   int64_t numerator_step = 0L;
   for (int i = 0; i < 3; ++i) {
     e[i] = edge(from[i], to[i], ivec2(span.x, y) * 256 + 128);
     numerator_step += int64_t(from[i].y - to[i].y) * 256L * int64_t(z[i]);
   }
-  int depth;
   int64_t remainder;
-  divide(e, z, s.area, depth, remainder);
-  depth += z_min;
+  int depth = z_min + divide(e[0], e[1], e[2], s.area, z, remainder);
   int64_t depth_step = numerator_step / s.area;
   int64_t remainder_step = numerator_step - depth_step * s.area;
   if (remainder_step < 0L) {
@@ -94,7 +72,8 @@ void main() {
 }  // namespace
 
 std::string draw_tiles(const ShaderVariant& variant) {
-  return kernel_beginning(variant, kTriangleGroup) + plotting() + triangle_setup() + kTiles;
+  return kernel_beginning(variant, kTriangleGroup) + plotting() + triangle_setup() +
+         depth_division() + kTiles;
 }
 
 }  // namespace rangezip::shader_text

@@ -6,7 +6,7 @@ namespace rangezip::shader_text {
 namespace {
 
 constexpr const char* kTriangle = R"(
-layout(std430, binding = SNAPPED) readonly buffer Snapped { int snapped[]; };
+layout(std430, binding = SNAPPED) readonly buffer Snapped { ivec4 snapped[]; };
 layout(std430, binding = CORNERS) readonly buffer Corners { uint corners[]; };
 layout(std430, binding = IDS) readonly buffer Ids { uint ids[]; };  // of the pieces of triangles
 uniform uint first_triangle;
@@ -18,23 +18,18 @@ const int SMALL = 32 * 256;   // in boxes below this edges fit in 32 bits
 const int SMALL_PIXELS = 64;  // that one invocation visits
 const ivec2 TILE = ivec2(256, 64);
 
-struct Corners3 { ivec3 a, b, c; };
+struct Corners3 { ivec4 a, b, c; };  // x, y, z, place
 
 // Counter-clockwise, with the pixels [lowest, highest] of its box.
 struct Setup { ivec3 a, b, c; int64_t area; ivec2 lowest, highest; bool is_small; };
 
-ivec3 corner(uint i) {
-  uint at = 3u * corners[i];
-  return ivec3(snapped[at], snapped[at + 1u], snapped[at + 2u]);
-}
-
 Corners3 corners_of(uint triangle) {
   uint at = 3u * (first_triangle + triangle);
-  return Corners3(corner(at), corner(at + 1u), corner(at + 2u));
+  return Corners3(snapped[corners[at]], snapped[corners[at + 1u]], snapped[corners[at + 2u]]);
 }
 
 bool has_rejected(Corners3 t) {
-  return t.a.x == REJECTED_X || t.b.x == REJECTED_X || t.c.x == REJECTED_X;
+  return max(t.a.w, max(t.b.w, t.c.w)) == PLACE_REJECTED;
 }
 
 uint id_of(uint triangle) { return has_ids != 0u ? ids[triangle] : first_id + triangle; }
@@ -42,11 +37,10 @@ uint id_of(uint triangle) { return has_ids != 0u ? ids[triangle] : first_id + tr
 // R6; false if nothing is drawn.
 bool set_up(Corners3 t, out Setup s) {
 #if OUTSIDE_ONLY
-  // Pieces, which have IDs of their own, are never left to the hardware.
-  if (has_ids == 0u && is_inside(t.a) && is_inside(t.b) && is_inside(t.c)) return false;
+  if (max(t.a.w, max(t.b.w, t.c.w)) == PLACE_INSIDE) return false;
 #endif
-  ivec3 least = min(t.a, min(t.b, t.c));
-  ivec3 most = max(t.a, max(t.b, t.c));
+  ivec3 least = min(t.a.xyz, min(t.b.xyz, t.c.xyz));
+  ivec3 most = max(t.a.xyz, max(t.b.xyz, t.c.xyz));
   // Pixels whose centres lie in the box; the shift rounds down.
   s.lowest = max((least.xy + 127) >> 8, ivec2(0, first_row));
   s.highest = min((most.xy - 128) >> 8, ivec2(width - 1, first_row + row_count - 1));
@@ -56,9 +50,9 @@ bool set_up(Corners3 t, out Setup s) {
   ivec2 ac = t.c.xy - t.a.xy;
   int64_t area = int64_t(ab.x) * int64_t(ac.y) - int64_t(ab.y) * int64_t(ac.x);
   if (area == 0L || (facing > 0 && area < 0L) || (facing < 0 && area > 0L)) return false;
-  s.a = t.a;
-  s.b = area > 0L ? t.b : t.c;
-  s.c = area > 0L ? t.c : t.b;
+  s.a = t.a.xyz;
+  s.b = area > 0L ? t.b.xyz : t.c.xyz;
+  s.c = area > 0L ? t.c.xyz : t.b.xyz;
   s.area = area > 0L ? area : -area;
   ivec2 pixels = s.highest - s.lowest + 1;
   s.is_small = all(lessThan(most.xy - least.xy, ivec2(SMALL))) &&
@@ -99,37 +93,14 @@ void main() {
 }
 )";
 
-constexpr const char* kOutside = R"(
-layout(std430, binding = COUNTERS) buffer Counters { uint counters[]; };
-
-void main() {
-  uint triangle = invocation();
-  if (triangle >= count) return;
-  Corners3 t = corners_of(triangle);
-  if (is_inside(t.a) && is_inside(t.b) && is_inside(t.c)) return;
-  atomicAdd(counters[OUTSIDE_TRIANGLES], 1u);
-}
-)";
-
 }  // namespace
 
-std::string inside_viewport() {
-  return "bool is_inside(ivec3 p) {\n" +
-         ("  return all(greaterThan(p.xy, ivec2(" + std::to_string(-256 * kViewportMargin)) +
-         "))) && all(lessThan(p.xy, ivec2(" +
-         std::to_string(256 * (kViewportSize - kViewportMargin)) + ")));\n}\n";
-}
-
 std::string triangle_setup() {
-  return inside_viewport() + kTriangle;
+  return kTriangle;
 }
 
 std::string classify_triangles(const ShaderVariant& variant) {
   return kernel_beginning(variant, kTriangleGroup) + plotting() + triangle_setup() + kClassify;
-}
-
-std::string count_outside(const ShaderVariant& variant) {
-  return kernel_beginning(variant, kTriangleGroup) + plotting() + triangle_setup() + kOutside;
 }
 
 }  // namespace rangezip::shader_text
