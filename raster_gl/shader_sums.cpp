@@ -11,7 +11,7 @@ layout(std430, binding = LOWER) readonly buffer Lower { int lower[]; };
 layout(std430, binding = UPPER) readonly buffer Upper { int upper[]; };
 layout(std430, binding = REFERENCE) readonly buffer Reference { int reference[]; };
 #if ATOMIC_INT64
-layout(std430, binding = SUMS) buffer Sums { uint64_t sums[]; };
+layout(std430, binding = SUMS) buffer Sums { int64_t sums[]; };
 #else
 layout(std430, binding = SUMS) buffer Sums { uint sums[]; };  // low half, high half
 #endif
@@ -27,7 +27,7 @@ uniform uint is_counting;
 void add(uint sum, int64_t value) {
   if (value == 0L) return;
 #if ATOMIC_INT64
-  atomicAdd(sums[sum], uint64_t(value));
+  atomicAdd(sums[sum], value);
 #else
   uvec2 halves = unpackUint2x32(uint64_t(value));
   uint old = atomicAdd(sums[2u * sum], halves.x);
