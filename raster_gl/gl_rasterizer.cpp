@@ -170,8 +170,12 @@ GlRasterizer::GlRasterizer(std::unique_ptr<GlContext> context, const GlOptions& 
 GlRasterizer::~GlRasterizer() = default;
 
 RasterizerInfo GlRasterizer::info() const {
+  const ComputeSetup& setup = state_->objects->painters->tools.setup;
+  std::string how = name_of(strategy());
+  if (strategy() == GlStrategy::compute && setup.has_atomic_int64) how += " in one pass";
+  if (setup.wide_rows) how += ", rows in double";
   return {.name = "gl:" + state_->context->name() + ", " + state_->objects->device.renderer() +
-                  ", " + name_of(strategy()),
+                  ", " + how,
           .max_extent = {kMaxRasterExtent, kMaxRasterExtent},
           .max_point_size = kMaxPointSize,
           .subpixel_bits = 8,
