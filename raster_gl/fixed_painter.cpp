@@ -27,7 +27,7 @@ GLint integer(const GlDevice& device, GLenum limit) {
 
 void check_limits(const GlDevice& device) {
   constexpr int kSubpixelBits = 8;
-  constexpr int kBlocks = 4;
+  constexpr int kBlocks = 2;
   GLfloat sizes[2] = {0.0F, 0.0F};
   device.gl().GetFloatv(GL_POINT_SIZE_RANGE, sizes);
   require(device, "points of size", sizes[1], kMaxPointSize);

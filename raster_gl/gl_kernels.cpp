@@ -12,6 +12,8 @@ std::string source_of(Kernel kernel, const ShaderVariant& variant) {
       return shader_text::snap_positions(variant);
     case Kernel::draw_points:
       return shader_text::draw_points(variant);
+    case Kernel::draw_single_points:
+      return shader_text::draw_single_points(variant);
     case Kernel::classify_triangles:
       return shader_text::classify_triangles(variant);
     case Kernel::draw_small_triangles:
@@ -30,6 +32,8 @@ const char* name_of(Kernel kernel) {
       return "snap_positions";
     case Kernel::draw_points:
       return "draw_points";
+    case Kernel::draw_single_points:
+      return "draw_single_points";
     case Kernel::classify_triangles:
       return "classify_triangles";
     case Kernel::draw_small_triangles:
@@ -61,6 +65,7 @@ std::string kernel_definitions() {
   define("PLACE_OUTSIDE", static_cast<std::uint32_t>(Place::outside));
   define("PLACE_REJECTED", static_cast<std::uint32_t>(Place::rejected));
   define("MOST_POINTS", kMostPointsPerPixel);
+  define("SINGLE_POINTS", kSinglePoints);
   return text;
 }
 

@@ -72,6 +72,9 @@ inline constexpr std::size_t kTriangleGroup = 64;
   return (invocations + group - 1) / group;
 }
 
+/// Points of size 1 that one invocation takes.
+inline constexpr std::uint32_t kSinglePoints = 4;
+
 /// The names above as GLSL sees them.
 [[nodiscard]] std::string kernel_definitions();
 
@@ -79,6 +82,7 @@ inline constexpr std::size_t kTriangleGroup = 64;
 enum class Kernel : std::uint8_t {
   snap_positions,        ///< R2-R4, R11 for the corners of triangles
   draw_points,           ///< R2-R5, R11, R12: snaps and plots
+  draw_single_points,    ///< the same for points of size 1, several an invocation
   classify_triangles,    ///< R6: lists rejected triangles, and the tiles of large ones
   draw_small_triangles,  ///< R6, R7: one invocation a triangle of up to 64 pixels
   draw_tiles,            ///< R6, R7: 64 invocations a tile of 256 x 64 pixels

@@ -54,7 +54,6 @@ std::string kernel_beginning(const ShaderVariant& variant, std::size_t group_siz
   text += define("PASS", static_cast<int>(variant.pass));
   text += define("ATOMIC_INT64", variant.pass == DrawPass::key ? 1 : 0);
   text += define("HAS_BAND", variant.has_band ? 1 : 0);
-  text += define("SINGLE_PIXELS", variant.single_pixels ? 1 : 0);
   text += define("OUTSIDE_ONLY", variant.outside_only ? 1 : 0);
   text += define("WIDE_ROWS", variant.wide_rows ? 1 : 0);
   text += define("IS_CENTRAL", variant.is_central ? 1 : 0);

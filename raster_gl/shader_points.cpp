@@ -13,25 +13,14 @@ uniform uint lanes;  // invocations that share a point
 uniform uint is_counting;
 
 void main() {
-#if SINGLE_PIXELS
-  uint point = invocation();
-  uint lane = 0u;
-#else
   uint point = invocation() / lanes;
   uint lane = invocation() % lanes;
-#endif
   if (point >= count) return;
   bool rejected, clipped;
   ivec3 p = snap(point, rejected, clipped);
   if (rejected && is_counting != 0u && lane == 0u) atomicAdd(counters[REJECTED_POINTS], 1u);
   if (rejected || clipped) return;
   // R5, and what is on screen.
-#if SINGLE_PIXELS
-  ivec2 at = p.xy >> 8;
-  if (uint(at.x) < uint(width) && uint(at.y - first_row) < uint(row_count)) {
-    plot(at.x, at.y, p.z, first_id + point);
-  }
-#else
   ivec2 first = (p.xy - 128 * (point_size - 1)) >> 8;
   ivec2 lowest = max(first, ivec2(0, first_row));
   ivec2 size = min(first + point_size, ivec2(width, first_row + row_count)) - lowest;
@@ -41,7 +30,6 @@ void main() {
     ivec2 at = lowest + ivec2(i % uint(size.x), i / uint(size.x));
     plot(at.x, at.y, p.z, first_id + point);
   }
-#endif
 }
 )";
 

@@ -15,11 +15,10 @@ enum class DrawPass {
 /// What a program is made for; one that draws is compiled for each set in use.
 struct ShaderVariant {
   DrawPass pass = DrawPass::depth;
-  bool has_band = false;       ///< R12
-  bool outside_only = false;   ///< triangles that fixed functions leave out (Place)
-  bool single_pixels = false;  ///< points of size 1, the bulk of a large cloud
-  bool wide_rows = false;      ///< R2 in double precision, for drivers whose floats flush denormals
-  bool is_central = false;     ///< R4, else R3; of programs that snap positions
+  bool has_band = false;      ///< R12
+  bool outside_only = false;  ///< triangles that fixed functions leave out (Place)
+  bool wide_rows = false;     ///< R2 in double precision, for drivers whose floats flush denormals
+  bool is_central = false;    ///< R4, else R3; of programs that snap positions
   bool has_clip_planes = false;  ///< R11; of programs that snap positions
 
   friend auto operator<=>(const ShaderVariant&, const ShaderVariant&) = default;
@@ -39,6 +38,7 @@ namespace shader_text {
 // the buffers and tells what each kernel does.
 [[nodiscard]] std::string snap_positions(const ShaderVariant& variant);
 [[nodiscard]] std::string draw_points(const ShaderVariant& variant);
+[[nodiscard]] std::string draw_single_points(const ShaderVariant& variant);
 [[nodiscard]] std::string classify_triangles(const ShaderVariant& variant);
 [[nodiscard]] std::string draw_small_triangles(const ShaderVariant& variant);
 [[nodiscard]] std::string draw_tiles(const ShaderVariant& variant);
