@@ -20,21 +20,20 @@ void main() {
   uint first = SINGLE_POINTS * invocation();
   uint pixels[SINGLE_POINTS];
   int depths_of[SINGLE_POINTS];
-  bool is_drawn[SINGLE_POINTS];
   for (uint i = 0u; i < SINGLE_POINTS; ++i) {
     bool is_there = first + i < count;
     bool rejected, clipped;
     ivec3 p = snap(min(first + i, count - 1u), rejected, clipped);
     if (is_there && rejected && is_counting != 0u) atomicAdd(counters[REJECTED_POINTS], 1u);
     ivec2 at = p.xy >> 8;
-    is_drawn[i] = is_there && !rejected && !clipped && is_on_screen(at);
-    pixels[i] = is_drawn[i] ? pixel_at(at.x, at.y) : 0u;
-    depths_of[i] = p.z;
+    bool is_drawn = is_there && !rejected && !clipped && is_on_screen(at);
+    pixels[i] = is_drawn ? pixel_at(at.x, at.y) : 0u;
+    depths_of[i] = is_drawn ? p.z : -1;  // before the near plane: never in depth
   }
   Found found[SINGLE_POINTS];
   for (uint i = 0u; i < SINGLE_POINTS; ++i) found[i] = look(pixels[i]);
   for (uint i = 0u; i < SINGLE_POINTS; ++i) {
-    if (is_drawn[i] && is_in_depth(pixels[i], depths_of[i])) {
+    if (is_in_depth(pixels[i], depths_of[i])) {
       settle(pixels[i], depths_of[i], first_id + first + i, found[i]);
     }
   }
