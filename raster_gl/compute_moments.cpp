@@ -70,9 +70,8 @@ void ComputeMoments::begin(const ImagePart& part, const AccumulateWindow& window
 
 void ComputeMoments::add_points(const DrawPoints& points, const ImagePart& part, int shift,
                                 bool is_counting) {
-  const ShaderVariant variant{
-      .pass = tools_.setup.has_atomic_int64 ? DrawPass::key : DrawPass::depth,
-      .wide_rows = tools_.setup.wide_rows};
+  ShaderVariant variant = rows_.variant(tools_.setup);
+  if (tools_.setup.has_atomic_int64) variant.pass = DrawPass::key;
   const GlProgram& program = tools_.kernels.get(Kernel::sum_points, variant);
   program.set("width", part.extent.width);
   program.set("first_row", part.first_row);

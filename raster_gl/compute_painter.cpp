@@ -42,6 +42,7 @@ std::size_t ComputePainter::draw_points(const DrawPoints& points, const RowTrans
   // Larger points have the invocations of a group's width: what one does stays short.
   constexpr int kLargestAlone = 8;
   constexpr std::size_t kManyLanes = 64;
+  const bool is_single = points.point_size == 1;
   const std::size_t lanes = points.point_size <= kLargestAlone ? 1 : kManyLanes;
   const std::size_t chunk = tools_.chunk_of(sizeof(Vec3f));
   rows_.upload(rows);
@@ -53,14 +54,18 @@ std::size_t ComputePainter::draw_points(const DrawPoints& points, const RowTrans
         tools_.uploads.get({.content_key = points.content_key, .first = begin, .count = count},
                            points.positions.subspan(begin, count));
     for (const DrawPass pass : target_.passes()) {
-      const GlProgram& program = target_.kernel(Kernel::draw_points, pass, points.point_size == 1);
+      ShaderVariant variant = rows_.variant(tools_.setup);
+      variant.pass = pass;
+      const GlProgram& program =
+          target_.kernel(is_single ? Kernel::draw_single_points : Kernel::draw_points, variant);
       rows_.bind(tools_.kernels, program, positions);
       program.set("count", static_cast<unsigned>(count));
       program.set("first_id", points.first_id + static_cast<PrimitiveId>(begin));
       program.set("point_size", points.point_size);
       program.set("lanes", static_cast<unsigned>(lanes));
       program.set("is_counting", is_counting && pass == target_.passes().front() ? 1U : 0U);
-      tools_.kernels.dispatch(program, groups_of(count * lanes, kPointGroup));
+      const std::size_t invocations = is_single ? groups_of(count, kSinglePoints) : count * lanes;
+      tools_.kernels.dispatch(program, groups_of(invocations, kPointGroup));
     }
     tools_.device.check("drawing points");
     end = begin;

@@ -53,12 +53,10 @@ std::span<const DrawPass> ComputeTarget::passes() const noexcept {
   return kTwo;
 }
 
-const GlProgram& ComputeTarget::kernel(Kernel kernel, DrawPass pass, bool single_pixels) const {
-  const GlProgram& program = tools_.kernels.get(kernel, {.pass = pass,
-                                                         .has_band = has_band_,
-                                                         .outside_only = tools_.setup.outside_only,
-                                                         .single_pixels = single_pixels,
-                                                         .wide_rows = tools_.setup.wide_rows});
+const GlProgram& ComputeTarget::kernel(Kernel kernel, ShaderVariant variant) const {
+  variant.has_band = has_band_;
+  variant.outside_only = tools_.setup.outside_only;
+  const GlProgram& program = tools_.kernels.get(kernel, variant);
   program.set("width", part_.extent.width);
   program.set("first_row", part_.first_row);
   program.set("row_count", part_.row_count);

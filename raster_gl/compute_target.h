@@ -27,9 +27,8 @@ class ComputeTarget {
   [[nodiscard]] std::span<const DrawPass> passes() const noexcept;
 
   /// A kernel that draws here, with what it needs of the target.
-  /// @param single_pixels for points: all are of size 1
-  [[nodiscard]] const GlProgram& kernel(Kernel kernel, DrawPass pass,
-                                        bool single_pixels = false) const;
+  /// @param variant what else it is made for
+  [[nodiscard]] const GlProgram& kernel(Kernel kernel, ShaderVariant variant) const;
 
   /// Copies the part into the image. @pre `out` has the image's extent
   void read(Framebuffer& out);

@@ -1,7 +1,7 @@
 #include "raster_gl/compute_tools.h"
 
 #include <algorithm>
-#include <vector>
+#include <bit>
 
 namespace rangezip {
 
@@ -26,26 +26,32 @@ std::array<std::uint32_t, kCounters> KernelCounters::read() const {
 }
 
 void SnapRows::upload(const RowTransform& rows) {
-  std::vector<Row> all{rows.x, rows.y, rows.z, rows.w};
-  all.insert(all.end(), rows.clip.begin(), rows.clip.end());
-  buffer_.upload(std::span<const Row>(all), "rows");
+  const auto bits_of = [](const Row& row) {
+    return std::bit_cast<std::array<std::uint32_t, 4>>(row);
+  };
+  rows_ = {bits_of(rows.x), bits_of(rows.y), bits_of(rows.z), bits_of(rows.w)};
+  clip_rows_.upload(std::span<const Row>(rows.clip), "clip planes");
   clip_planes_ = static_cast<std::uint32_t>(rows.clip.size());
-  is_central_ = rows.is_central ? 1 : 0;
+  is_central_ = rows.is_central;
+}
+
+ShaderVariant SnapRows::variant(const ComputeSetup& setup) const noexcept {
+  return {
+      .wide_rows = setup.wide_rows, .is_central = is_central_, .has_clip_planes = clip_planes_ > 0};
 }
 
 void SnapRows::bind(const Kernels& kernels, const GlProgram& program,
                     const GlBuffer& positions) const {
-  kernels.bind(Binding::rows, buffer_);
   kernels.bind(Binding::positions, positions);
+  program.set("rows", std::span<const std::array<std::uint32_t, 4>>(rows_));
+  kernels.bind(Binding::clip_rows, clip_rows_);
   program.set("clip_planes", clip_planes_);
-  program.set("is_central", is_central_);
 }
 
 void SnapRows::snap(const ComputeTools& tools, std::span<const Vec3f> positions,
                     const UploadKey& key, GlBuffer& snapped, bool is_counting) const {
-  const GlProgram& program =
-      tools.kernels.get(Kernel::snap_positions, {.wide_rows = tools.setup.wide_rows});
-  snapped.reserve(positions.size() * sizeof(SnappedPosition), "snapped positions");
+  const GlProgram& program = tools.kernels.get(Kernel::snap_positions, variant(tools.setup));
+  snapped.reserve(positions.size() * sizeof(PlacedPosition), "snapped positions");
   bind(tools.kernels, program, tools.uploads.get(key, positions));
   tools.kernels.bind(Binding::snapped, snapped);
   program.set("count", static_cast<unsigned>(positions.size()));

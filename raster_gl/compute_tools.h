@@ -47,20 +47,24 @@ class KernelCounters {
 /// The rows of R1 for kernels that snap positions.
 class SnapRows {
  public:
-  explicit SnapRows(const GlDevice& device) : buffer_(device) {}
+  explicit SnapRows(const GlDevice& device) : clip_rows_(device) {}
 
   void upload(const RowTransform& rows);
-  /// Lets `program` snap `positions` by these rows.
+  /// What a program must be made for to snap by them.
+  [[nodiscard]] ShaderVariant variant(const ComputeSetup& setup) const noexcept;
+  /// Lets `program`, of that variant, snap `positions` by these rows.
   void bind(const Kernels& kernels, const GlProgram& program, const GlBuffer& positions) const;
-  /// Snaps all of `positions` into `snapped`, 3 integers each. Those that R3 or R4 rejects are
-  /// counted if `is_counting`. @throws BackendError if the device fails
+  /// Snaps all of `positions` into `snapped`, as PlacedPosition. Those that R3 or R4 rejects, and
+  /// those outside of the viewport, are counted if `is_counting`.
+  /// @throws BackendError if the device fails
   void snap(const ComputeTools& tools, std::span<const Vec3f> positions, const UploadKey& key,
             GlBuffer& snapped, bool is_counting = false) const;
 
  private:
-  GlBuffer buffer_;
+  std::array<std::array<std::uint32_t, 4>, 4> rows_{};  ///< the bits of x, y, z, w
+  GlBuffer clip_rows_;
   std::uint32_t clip_planes_ = 0;
-  std::uint32_t is_central_ = 0;
+  bool is_central_ = false;
 };
 
 }  // namespace rangezip

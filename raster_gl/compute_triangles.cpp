@@ -40,7 +40,8 @@ ComputeTriangles::ComputeTriangles(const ComputeTools& tools, ComputeTarget& tar
 std::size_t ComputeTriangles::draw(const DrawTriangles& item, const RowTransform& rows) {
   if (item.triangles.empty()) return 0;
   rows_.upload(rows);
-  if (item.positions.size() > tools_.chunk_of(sizeof(Vec3f))) return draw_gathered(item, rows);
+  if (item.positions.size() > tools_.chunk_of(sizeof(PlacedPosition)))
+    return draw_gathered(item, rows);
   rows_.snap(tools_, item.positions,
              {.content_key = item.content_key, .count = item.positions.size()}, snapped_);
   const std::size_t chunk = tools_.chunk_of(sizeof(Triangle));
@@ -58,7 +59,7 @@ std::size_t ComputeTriangles::draw(const DrawTriangles& item, const RowTransform
 
 /// For items with more positions than a buffer holds: each chunk of triangles brings its own.
 std::size_t ComputeTriangles::draw_gathered(const DrawTriangles& item, const RowTransform& rows) {
-  const std::size_t chunk = tools_.chunk_of(3 * sizeof(Vec3f));
+  const std::size_t chunk = tools_.chunk_of(3 * sizeof(PlacedPosition));
   std::size_t dropped = 0;
   for (std::size_t end = item.triangles.size(); end > 0;) {
     const std::size_t begin = (end - 1) / chunk * chunk;
@@ -124,7 +125,13 @@ std::size_t ComputeTriangles::cut(const Source& source, std::size_t begin, std::
   }
   std::vector<std::uint32_t> indices(3 * pieces_.size());
   std::iota(indices.begin(), indices.end(), 0U);
-  piece_snapped_.upload(std::span<const SnappedTriangle>(pieces_), "pieces of triangles");
+  std::vector<PlacedPosition> corners;
+  corners.reserve(3 * pieces_.size());
+  for (const SnappedTriangle& piece : pieces_) {
+    for (const SnappedPosition& p : piece)
+      corners.push_back({p.x, p.y, p.z, Place::outside});  // never left to the hardware
+  }
+  piece_snapped_.upload(std::span<const PlacedPosition>(corners), "pieces of triangles");
   piece_corners_.upload(std::span<const std::uint32_t>(indices), "pieces of triangles");
   piece_ids_.upload(std::span<const PrimitiveId>(ids_of_pieces_), "pieces of triangles");
   return dropped;
@@ -133,7 +140,7 @@ std::size_t ComputeTriangles::cut(const Source& source, std::size_t begin, std::
 /// Lists the tiles of the batch's large triangles, and the triangles with a rejected corner.
 /// @return false if they are more than a buffer holds
 bool ComputeTriangles::list_tiles(Batch& batch, std::size_t& rejected) {
-  const GlProgram& program = target_.kernel(Kernel::classify_triangles, DrawPass::depth);
+  const GlProgram& program = target_.kernel(Kernel::classify_triangles, {});
   rejected_.reserve(batch.count * sizeof(std::uint32_t), "rejected triangles");
   tools_.kernels.bind(Binding::rejected, rejected_);
   for (;;) {
@@ -167,11 +174,11 @@ void ComputeTriangles::bind(const GlProgram& program, const Batch& batch) const 
 
 void ComputeTriangles::plot(const Batch& batch, DrawPass pass) const {
   if (batch.count == 0) return;
-  const GlProgram& small = target_.kernel(Kernel::draw_small_triangles, pass);
+  const GlProgram& small = target_.kernel(Kernel::draw_small_triangles, {.pass = pass});
   bind(small, batch);
   tools_.kernels.dispatch(small, groups_of(batch.count, kTriangleGroup));
   if (batch.tile_count > 0) {
-    const GlProgram& large = target_.kernel(Kernel::draw_tiles, pass);
+    const GlProgram& large = target_.kernel(Kernel::draw_tiles, {.pass = pass});
     bind(large, batch);
     large.set("count", static_cast<unsigned>(batch.tile_count));
     tools_.kernels.dispatch(large, batch.tile_count);

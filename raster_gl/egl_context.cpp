@@ -8,45 +8,42 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "raster_gl/function_table.h"
 #include "raster_gl/shared_library.h"
 
 namespace rangezip {
 
 namespace {
 
-/// The functions of EGL itself; those of OpenGL come through get_proc_address.
-struct EglFunctions {
-  decltype(&eglBindAPI) bind_api = nullptr;
-  decltype(&eglCreateContext) create_context = nullptr;
-  decltype(&eglDestroyContext) destroy_context = nullptr;
-  decltype(&eglGetError) get_error = nullptr;
-  decltype(&eglGetProcAddress) get_proc_address = nullptr;
-  decltype(&eglInitialize) initialize = nullptr;
-  decltype(&eglMakeCurrent) make_current = nullptr;
-  decltype(&eglQueryString) query_string = nullptr;
+/// The functions of EGL itself; those of OpenGL come through GetProcAddress.
+#define RANGEZIP_EGL_FUNCTIONS(X) \
+  X(egl, BindAPI)                 \
+  X(egl, CreateContext)           \
+  X(egl, DestroyContext)          \
+  X(egl, GetError)                \
+  X(egl, GetProcAddress)          \
+  X(egl, Initialize)              \
+  X(egl, MakeCurrent)             \
+  X(egl, QueryString)
 
+struct EglFunctions {
   explicit EglFunctions(const SharedLibrary& library) {
-    library.find("eglBindAPI", bind_api);
-    library.find("eglCreateContext", create_context);
-    library.find("eglDestroyContext", destroy_context);
-    library.find("eglGetError", get_error);
-    library.find("eglGetProcAddress", get_proc_address);
-    library.find("eglInitialize", initialize);
-    library.find("eglMakeCurrent", make_current);
-    library.find("eglQueryString", query_string);
+    const auto find = [&](const char* name, auto& function) { library.find(name, function); };
+    RANGEZIP_EGL_FUNCTIONS(RANGEZIP_FIND_FUNCTION)
   }
+  RANGEZIP_EGL_FUNCTIONS(RANGEZIP_FUNCTION_MEMBER)
 
   [[noreturn]] void fail(const std::string& what) const {
     constexpr int kHex = 16;
     std::string digits;
-    for (int code = get_error(); code > 0; code /= kHex)
+    for (int code = GetError(); code > 0; code /= kHex)
       digits.insert(digits.begin(), "0123456789abcdef"[code % kHex]);
     throw BackendError("EGL: " + what + " (error 0x" + digits + ")");
   }
 
   /// @throws BackendError unless the display (or EGL itself, without one) has the extension
   void require(EGLDisplay display, const std::string& extension) const {
-    const char* const list = query_string(display, EGL_EXTENSIONS);
+    const char* const list = QueryString(display, EGL_EXTENSIONS);
     const std::string all = list == nullptr ? " " : " " + std::string(list) + " ";
     if (all.find(" " + extension + " ") != std::string::npos) return;
     throw BackendError("EGL: there is no extension " + extension);
@@ -55,7 +52,7 @@ struct EglFunctions {
   /// A function of an extension; null would be a defect of the driver.
   template <class Function>
   void find(const char* name, Function& function) const {
-    function = reinterpret_cast<Function>(get_proc_address(name));
+    function = reinterpret_cast<Function>(GetProcAddress(name));
     if (function == nullptr) throw BackendError(std::string("EGL: there is no function ") + name);
   }
 };
@@ -80,7 +77,7 @@ EGLDisplay get_display(const EglFunctions& egl, EGLenum platform, void* native) 
   EGLint major = 0;
   EGLint minor = 0;
   // Displays are shared by the whole process and never ended: that would end other contexts.
-  if (egl.initialize(display, &major, &minor) != EGL_TRUE) egl.fail("the display does not start");
+  if (egl.Initialize(display, &major, &minor) != EGL_TRUE) egl.fail("the display does not start");
   return display;
 }
 
@@ -90,19 +87,19 @@ class EglContext final : public GlContext {
       : egl_(egl), display_(display), name_(std::move(name)) {
     egl_.require(display_, "EGL_KHR_surfaceless_context");
     egl_.require(display_, "EGL_KHR_no_config_context");
-    egl_.bind_api(EGL_OPENGL_API);
+    egl_.BindAPI(EGL_OPENGL_API);
     // With a strategy for resets the loss of the device becomes an error that glGetError tells.
     // Not every driver knows one.
     context_ = create({EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET});
     if (context_ == EGL_NO_CONTEXT) context_ = create({});
     if (context_ == EGL_NO_CONTEXT) egl_.fail("there is no OpenGL 4.5 core context");
   }
-  ~EglContext() override { egl_.destroy_context(display_, context_); }
+  ~EglContext() override { egl_.DestroyContext(display_, context_); }
 
   [[nodiscard]] std::string name() const override { return name_; }
 
   [[nodiscard]] Function function(const char* name) const override {
-    return egl_.get_proc_address(name);
+    return egl_.GetProcAddress(name);
   }
 
  private:
@@ -110,16 +107,16 @@ class EglContext final : public GlContext {
     attributes.insert(attributes.end(), {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
                                          EGL_CONTEXT_OPENGL_PROFILE_MASK,
                                          EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE});
-    return egl_.create_context(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
+    return egl_.CreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
   }
   void make_current() override {
-    egl_.bind_api(EGL_OPENGL_API);  // a thread that has not used EGL yet stands at OpenGL ES
-    if (egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE) {
+    egl_.BindAPI(EGL_OPENGL_API);  // a thread that has not used EGL yet stands at OpenGL ES
+    if (egl_.MakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE) {
       egl_.fail("the context cannot be made current");
     }
   }
   void release() noexcept override {
-    egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    egl_.MakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   }
 
   EglFunctions egl_;

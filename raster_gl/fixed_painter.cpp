@@ -6,7 +6,7 @@
 
 #include "core/base/error.h"
 #include "raster_gl/gathered_triangles.h"
-#include "raster_gl/hardware_text.h"
+#include "raster_gl/shader_text.h"
 
 namespace rangezip {
 
@@ -27,7 +27,7 @@ GLint integer(const GlDevice& device, GLenum limit) {
 
 void check_limits(const GlDevice& device) {
   constexpr int kSubpixelBits = 8;
-  constexpr int kBlocks = 4;
+  constexpr int kBlocks = 2;
   GLfloat sizes[2] = {0.0F, 0.0F};
   device.gl().GetFloatv(GL_POINT_SIZE_RANGE, sizes);
   require(device, "points of size", sizes[1], kMaxPointSize);
@@ -71,7 +71,7 @@ DrawReport FixedPainter::draw(const View& view, std::span<const DrawItem> items,
   out.id.reset(view.extent());
   has_band_ = band != nullptr;
   DrawReport report;
-  std::size_t outside = 0;
+  bool has_outside = false;
   const std::size_t most_pixels = tools_.setup.block_bytes / sizeof(std::uint32_t);
   for (const ImagePart& part : parts_of(view.extent(), most_pixels)) {
     target_.begin(part, band, Projection::fixed);
@@ -81,13 +81,13 @@ DrawReport FixedPainter::draw(const View& view, std::span<const DrawItem> items,
       if (const auto* points = std::get_if<DrawPoints>(&item)) {
         report.dropped_points += draw_points(*points, part.first_row == 0);
       } else {
-        outside += draw_triangles(std::get<DrawTriangles>(item));
+        has_outside |= draw_triangles(std::get<DrawTriangles>(item));
       }
     }
     target_.read(out);
     target_.end();
   }
-  if (outside > 0) {
+  if (has_outside) {
     Framebuffer rest;
     report.dropped_triangles =
         outside_.draw(view, triangles_of(items), band, rest).dropped_triangles;
@@ -99,7 +99,7 @@ DrawReport FixedPainter::draw(const View& view, std::span<const DrawItem> items,
 /// @return points that R3 or R4 rejects; 0 unless they are counted
 std::size_t FixedPainter::draw_points(const DrawPoints& points, bool is_counting) {
   counters_.restart(tools_.kernels);
-  const std::size_t chunk = tools_.chunk_of(sizeof(Vec3f));
+  const std::size_t chunk = tools_.chunk_of(sizeof(PlacedPosition));
   for (std::size_t begin = 0; begin < points.positions.size(); begin += chunk) {
     const std::size_t count = std::min(chunk, points.positions.size() - begin);
     rows_.snap(tools_, points.positions.subspan(begin, count),
@@ -113,52 +113,48 @@ std::size_t FixedPainter::draw_points(const DrawPoints& points, bool is_counting
   return is_counting ? counters_.read()[static_cast<std::size_t>(Counter::rejected_points)] : 0;
 }
 
-/// @return triangles that kernels must draw
-std::size_t FixedPainter::draw_triangles(const DrawTriangles& item) {
-  if (item.triangles.empty()) return 0;
+/// @return whether there are triangles that kernels must draw
+bool FixedPainter::draw_triangles(const DrawTriangles& item) {
+  if (item.triangles.empty()) return false;
   const GlFunctions& gl = tools_.device.gl();
   item.facing == Facing::both ? gl.Disable(GL_CULL_FACE) : gl.Enable(GL_CULL_FACE);
   gl.CullFace(item.facing == Facing::front ? GL_BACK : GL_FRONT);
-  const bool is_gathered = item.positions.size() > tools_.chunk_of(sizeof(Vec3f));
-  const std::size_t chunk = tools_.chunk_of((is_gathered ? 3 : 1) * sizeof(Triangle));
-  if (!is_gathered) {
-    rows_.snap(tools_, item.positions,
-               {.content_key = item.content_key, .count = item.positions.size()}, snapped_);
-  }
-  std::size_t outside = 0;
+  const bool is_gathered = item.positions.size() > tools_.chunk_of(sizeof(PlacedPosition));
+  const std::size_t chunk =
+      tools_.chunk_of(is_gathered ? 3 * sizeof(PlacedPosition) : sizeof(Triangle));
+  bool has_outside = !is_gathered && snap_corners(item.positions, item.content_key);
   for (std::size_t begin = 0; begin < item.triangles.size(); begin += chunk) {
     const std::size_t count = std::min(chunk, item.triangles.size() - begin);
     if (is_gathered) {
       const GatheredTriangles part = gather(item, begin, begin + count);
-      rows_.snap(tools_, part.positions, {}, snapped_);
-      const GlBuffer& corners = tools_.uploads.get({}, std::span<const Triangle>(part.triangles));
-      outside += draw_chunk(item, corners, begin, count);
+      has_outside |= snap_corners(part.positions, 0);
+      draw_chunk(item, tools_.uploads.get({}, std::span<const Triangle>(part.triangles)), begin,
+                 count);
     } else {
-      const GlBuffer& corners = tools_.uploads.get(
-          {.content_key = item.content_key, .is_corners = true, .first = begin, .count = count},
-          item.triangles.subspan(begin, count));
-      outside += draw_chunk(item, corners, begin, count);
+      const UploadKey key{
+          .content_key = item.content_key, .is_corners = true, .first = begin, .count = count};
+      draw_chunk(item, tools_.uploads.get(key, item.triangles.subspan(begin, count)), begin, count);
     }
   }
   gl.Disable(GL_CULL_FACE);
-  return outside;
+  return has_outside;
 }
 
-std::size_t FixedPainter::draw_chunk(const DrawTriangles& item, const GlBuffer& corners,
-                                     std::size_t begin, std::size_t count) {
+/// @return whether one of them lies outside of the viewport
+bool FixedPainter::snap_corners(std::span<const Vec3f> positions, std::uint64_t content_key) {
   counters_.restart(tools_.kernels);
+  rows_.snap(tools_, positions, {.content_key = content_key, .count = positions.size()}, snapped_,
+             true);
+  return counters_.read()[static_cast<std::size_t>(Counter::outside_positions)] > 0;
+}
+
+void FixedPainter::draw_chunk(const DrawTriangles& item, const GlBuffer& corners, std::size_t begin,
+                              std::size_t count) {
   tools_.kernels.bind(Binding::snapped, snapped_);
   tools_.kernels.bind(Binding::corners, corners);
-  const GlProgram& counting = tools_.kernels.get(Kernel::count_outside, {});
-  counting.set("count", static_cast<unsigned>(count));
-  tools_.kernels.dispatch(counting, groups_of(count, kTriangleGroup));
-  const std::size_t outside =
-      counters_.read()[static_cast<std::size_t>(Counter::outside_triangles)];
   const GlProgram& drawing = program(false);
   drawing.set("first_id", item.first_id + static_cast<PrimitiveId>(begin));
-  drawing.set("all_inside", outside == 0 ? 1U : 0U);
   target_.draw(drawing, GL_TRIANGLES, 3 * count);
-  return outside;
 }
 
 const GlProgram& FixedPainter::program(bool of_points) {

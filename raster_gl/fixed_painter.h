@@ -28,9 +28,10 @@ class FixedPainter {
 
  private:
   std::size_t draw_points(const DrawPoints& points, bool is_counting);
-  std::size_t draw_triangles(const DrawTriangles& item);
-  std::size_t draw_chunk(const DrawTriangles& item, const GlBuffer& corners, std::size_t begin,
-                         std::size_t count);
+  bool draw_triangles(const DrawTriangles& item);
+  bool snap_corners(std::span<const Vec3f> positions, std::uint64_t content_key);
+  void draw_chunk(const DrawTriangles& item, const GlBuffer& corners, std::size_t begin,
+                  std::size_t count);
   const GlProgram& program(bool of_points);
 
   const ComputeTools& tools_;

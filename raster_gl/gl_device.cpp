@@ -48,6 +48,9 @@ void require_at_least(const GlFunctions& gl, GLenum limit, const char* name, GLi
                      ", the driver has " + std::to_string(value));
 }
 
+/// Kinds of errors that OpenGL may keep at a time, and some more.
+constexpr int kMostErrors = 10;
+
 std::string name_of(GLenum error) {
   switch (error) {
     case GL_OUT_OF_MEMORY:
@@ -94,6 +97,11 @@ GlDevice::~GlDevice() {
 
 void GlDevice::check(const char* stage) const {
   GLenum error = gl_.GetError();
+  // Several errors may be waiting: what is left of them must not be the next call's. A lost context
+  // never runs out.
+  for (int i = 0; error != GL_NO_ERROR && i < kMostErrors; ++i) {
+    if (gl_.GetError() == GL_NO_ERROR) break;
+  }
   if (error == GL_NO_ERROR && gl_.GetGraphicsResetStatus() != GL_NO_ERROR) error = GL_CONTEXT_LOST;
   if (error == GL_NO_ERROR) return;
   std::string text = "OpenGL (" + renderer_ + "), " + stage + ": " + name_of(error);

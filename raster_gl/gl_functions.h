@@ -1,81 +1,83 @@
 #pragma once
 
+// Declarations too, for the types of the functions.
+#define GL_GLEXT_PROTOTYPES
 #include <GL/glcorearb.h>
 
+#include "raster_gl/function_table.h"
 #include "raster_gl/gl_context.h"
 
 namespace rangezip {
 
-/// The OpenGL functions in use: X(type of the pointer, name without "gl").
-#define RANGEZIP_GL_FUNCTIONS(X)                                         \
-  X(PFNGLATTACHSHADERPROC, AttachShader)                                 \
-  X(PFNGLBINDBUFFERBASEPROC, BindBufferBase)                             \
-  X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                           \
-  X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                           \
-  X(PFNGLCHECKNAMEDFRAMEBUFFERSTATUSPROC, CheckNamedFramebufferStatus)   \
-  X(PFNGLCLEARNAMEDBUFFERSUBDATAPROC, ClearNamedBufferSubData)           \
-  X(PFNGLCLEARNAMEDFRAMEBUFFERFVPROC, ClearNamedFramebufferfv)           \
-  X(PFNGLCLEARNAMEDFRAMEBUFFERUIVPROC, ClearNamedFramebufferuiv)         \
-  X(PFNGLCLIPCONTROLPROC, ClipControl)                                   \
-  X(PFNGLCOMPILESHADERPROC, CompileShader)                               \
-  X(PFNGLCREATEBUFFERSPROC, CreateBuffers)                               \
-  X(PFNGLCREATEFRAMEBUFFERSPROC, CreateFramebuffers)                     \
-  X(PFNGLCREATEPROGRAMPROC, CreateProgram)                               \
-  X(PFNGLCREATERENDERBUFFERSPROC, CreateRenderbuffers)                   \
-  X(PFNGLCREATESHADERPROC, CreateShader)                                 \
-  X(PFNGLCREATEVERTEXARRAYSPROC, CreateVertexArrays)                     \
-  X(PFNGLCULLFACEPROC, CullFace)                                         \
-  X(PFNGLDEBUGMESSAGECALLBACKPROC, DebugMessageCallback)                 \
-  X(PFNGLDELETEBUFFERSPROC, DeleteBuffers)                               \
-  X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)                     \
-  X(PFNGLDELETEPROGRAMPROC, DeleteProgram)                               \
-  X(PFNGLDELETERENDERBUFFERSPROC, DeleteRenderbuffers)                   \
-  X(PFNGLDELETESHADERPROC, DeleteShader)                                 \
-  X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays)                     \
-  X(PFNGLDEPTHFUNCPROC, DepthFunc)                                       \
-  X(PFNGLDISABLEPROC, Disable)                                           \
-  X(PFNGLDISPATCHCOMPUTEPROC, DispatchCompute)                           \
-  X(PFNGLDRAWARRAYSPROC, DrawArrays)                                     \
-  X(PFNGLDRAWELEMENTSPROC, DrawElements)                                 \
-  X(PFNGLENABLEPROC, Enable)                                             \
-  X(PFNGLFINISHPROC, Finish)                                             \
-  X(PFNGLFRONTFACEPROC, FrontFace)                                       \
-  X(PFNGLGETERRORPROC, GetError)                                         \
-  X(PFNGLGETFLOATVPROC, GetFloatv)                                       \
-  X(PFNGLGETGRAPHICSRESETSTATUSPROC, GetGraphicsResetStatus)             \
-  X(PFNGLGETINTEGER64VPROC, GetInteger64v)                               \
-  X(PFNGLGETINTEGERVPROC, GetIntegerv)                                   \
-  X(PFNGLGETNAMEDBUFFERSUBDATAPROC, GetNamedBufferSubData)               \
-  X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)                       \
-  X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                                 \
-  X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog)                         \
-  X(PFNGLGETSHADERIVPROC, GetShaderiv)                                   \
-  X(PFNGLGETSTRINGPROC, GetString)                                       \
-  X(PFNGLGETSTRINGIPROC, GetStringi)                                     \
-  X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)                     \
-  X(PFNGLLINKPROGRAMPROC, LinkProgram)                                   \
-  X(PFNGLMEMORYBARRIERPROC, MemoryBarrier)                               \
-  X(PFNGLNAMEDBUFFERDATAPROC, NamedBufferData)                           \
-  X(PFNGLNAMEDBUFFERSUBDATAPROC, NamedBufferSubData)                     \
-  X(PFNGLNAMEDFRAMEBUFFERRENDERBUFFERPROC, NamedFramebufferRenderbuffer) \
-  X(PFNGLNAMEDRENDERBUFFERSTORAGEPROC, NamedRenderbufferStorage)         \
-  X(PFNGLPROGRAMUNIFORM1IPROC, ProgramUniform1i)                         \
-  X(PFNGLPROGRAMUNIFORM1UIPROC, ProgramUniform1ui)                       \
-  X(PFNGLPROGRAMUNIFORMMATRIX4FVPROC, ProgramUniformMatrix4fv)           \
-  X(PFNGLREADPIXELSPROC, ReadPixels)                                     \
-  X(PFNGLSHADERSOURCEPROC, ShaderSource)                                 \
-  X(PFNGLUSEPROGRAMPROC, UseProgram)                                     \
-  X(PFNGLVERTEXARRAYELEMENTBUFFERPROC, VertexArrayElementBuffer)         \
-  X(PFNGLVIEWPORTPROC, Viewport)
+/// The OpenGL functions in use.
+#define RANGEZIP_GL_FUNCTIONS(X)      \
+  X(gl, AttachShader)                 \
+  X(gl, BindBufferBase)               \
+  X(gl, BindFramebuffer)              \
+  X(gl, BindVertexArray)              \
+  X(gl, CheckNamedFramebufferStatus)  \
+  X(gl, ClearNamedBufferSubData)      \
+  X(gl, ClearNamedFramebufferfv)      \
+  X(gl, ClearNamedFramebufferuiv)     \
+  X(gl, ClipControl)                  \
+  X(gl, CompileShader)                \
+  X(gl, CreateBuffers)                \
+  X(gl, CreateFramebuffers)           \
+  X(gl, CreateProgram)                \
+  X(gl, CreateRenderbuffers)          \
+  X(gl, CreateShader)                 \
+  X(gl, CreateVertexArrays)           \
+  X(gl, CullFace)                     \
+  X(gl, DebugMessageCallback)         \
+  X(gl, DeleteBuffers)                \
+  X(gl, DeleteFramebuffers)           \
+  X(gl, DeleteProgram)                \
+  X(gl, DeleteRenderbuffers)          \
+  X(gl, DeleteShader)                 \
+  X(gl, DeleteVertexArrays)           \
+  X(gl, DepthFunc)                    \
+  X(gl, Disable)                      \
+  X(gl, DispatchCompute)              \
+  X(gl, DrawArrays)                   \
+  X(gl, DrawElements)                 \
+  X(gl, Enable)                       \
+  X(gl, Finish)                       \
+  X(gl, FrontFace)                    \
+  X(gl, GetError)                     \
+  X(gl, GetFloatv)                    \
+  X(gl, GetGraphicsResetStatus)       \
+  X(gl, GetInteger64v)                \
+  X(gl, GetIntegerv)                  \
+  X(gl, GetNamedBufferSubData)        \
+  X(gl, GetProgramInfoLog)            \
+  X(gl, GetProgramiv)                 \
+  X(gl, GetShaderInfoLog)             \
+  X(gl, GetShaderiv)                  \
+  X(gl, GetString)                    \
+  X(gl, GetStringi)                   \
+  X(gl, GetUniformLocation)           \
+  X(gl, LinkProgram)                  \
+  X(gl, MemoryBarrier)                \
+  X(gl, NamedBufferData)              \
+  X(gl, NamedBufferSubData)           \
+  X(gl, NamedFramebufferRenderbuffer) \
+  X(gl, NamedRenderbufferStorage)     \
+  X(gl, ProgramUniform1i)             \
+  X(gl, ProgramUniform1ui)            \
+  X(gl, ProgramUniform4uiv)           \
+  X(gl, ProgramUniformMatrix4fv)      \
+  X(gl, ReadPixels)                   \
+  X(gl, ShaderSource)                 \
+  X(gl, UseProgram)                   \
+  X(gl, VertexArrayElementBuffer)     \
+  X(gl, Viewport)
 
 /// Their addresses in one context: gl.DrawArrays(...).
 struct GlFunctions {
   /// @throws BackendError if the context has no OpenGL 4.5 or lacks one of the functions.
   explicit GlFunctions(const CurrentContext& current);
 
-#define RANGEZIP_GL_MEMBER(Type, name) Type name = nullptr;
-  RANGEZIP_GL_FUNCTIONS(RANGEZIP_GL_MEMBER)
-#undef RANGEZIP_GL_MEMBER
+  RANGEZIP_GL_FUNCTIONS(RANGEZIP_FUNCTION_MEMBER)
 };
 
 }  // namespace rangezip

@@ -12,14 +12,14 @@ std::string source_of(Kernel kernel, const ShaderVariant& variant) {
       return shader_text::snap_positions(variant);
     case Kernel::draw_points:
       return shader_text::draw_points(variant);
+    case Kernel::draw_single_points:
+      return shader_text::draw_single_points(variant);
     case Kernel::classify_triangles:
       return shader_text::classify_triangles(variant);
     case Kernel::draw_small_triangles:
       return shader_text::draw_small_triangles(variant);
     case Kernel::draw_tiles:
       return shader_text::draw_tiles(variant);
-    case Kernel::count_outside:
-      return shader_text::count_outside(variant);
     case Kernel::sum_points:
       break;
   }
@@ -32,14 +32,14 @@ const char* name_of(Kernel kernel) {
       return "snap_positions";
     case Kernel::draw_points:
       return "draw_points";
+    case Kernel::draw_single_points:
+      return "draw_single_points";
     case Kernel::classify_triangles:
       return "classify_triangles";
     case Kernel::draw_small_triangles:
       return "draw_small_triangles";
     case Kernel::draw_tiles:
       return "draw_tiles";
-    case Kernel::count_outside:
-      return "count_outside";
     case Kernel::sum_points:
       break;
   }
@@ -59,16 +59,18 @@ std::string kernel_definitions() {
   define("REJECTED_POINTS", static_cast<std::uint32_t>(Counter::rejected_points));
   define("REJECTED_TRIANGLES", static_cast<std::uint32_t>(Counter::rejected_triangles));
   define("TILE_COUNT", static_cast<std::uint32_t>(Counter::tiles));
-  define("OUTSIDE_TRIANGLES", static_cast<std::uint32_t>(Counter::outside_triangles));
+  define("OUTSIDE_POSITIONS", static_cast<std::uint32_t>(Counter::outside_positions));
   define("FULL_PIXEL", static_cast<std::uint32_t>(Counter::full_pixel));
+  define("PLACE_INSIDE", static_cast<std::uint32_t>(Place::inside));
+  define("PLACE_OUTSIDE", static_cast<std::uint32_t>(Place::outside));
+  define("PLACE_REJECTED", static_cast<std::uint32_t>(Place::rejected));
   define("MOST_POINTS", kMostPointsPerPixel);
+  define("SINGLE_POINTS", kSinglePoints);
   return text;
 }
 
 const GlProgram& Kernels::get(Kernel kernel, const ShaderVariant& variant) {
-  const Key key{
-      kernel,           variant.pass, variant.has_band, variant.outside_only, variant.single_pixels,
-      variant.wide_rows};
+  const std::pair key(kernel, variant);
   const auto found = programs_.find(key);
   if (found != programs_.end()) return found->second;
   GlProgram program(device_, name_of(kernel), {{GL_COMPUTE_SHADER, source_of(kernel, variant)}});

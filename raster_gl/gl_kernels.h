@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
-#include <tuple>
+#include <utility>
 
 #include "raster_gl/gl_buffer.h"
 #include "raster_gl/gl_program.h"
@@ -14,8 +14,8 @@ namespace rangezip {
 /// The buffers of the compute kernels: X(binding, name in GLSL).
 #define RANGEZIP_GL_BINDINGS(X)                                                                   \
   X(positions, POSITIONS) /* 3 floats a position */                                               \
-  X(rows, ROWS)           /* R1: 4 floats a row: x, y, z, w, then one a clip plane */             \
-  X(snapped, SNAPPED)     /* 3 integers a position */                                             \
+  X(clip_rows, CLIP_ROWS) /* R11: 4 floats a clip plane */                                        \
+  X(snapped, SNAPPED)     /* 4 integers a position: x, y, z, Place */                             \
   X(corners, CORNERS)     /* 3 indices a triangle */                                              \
   X(ids, IDS)             /* one a triangle, for pieces */                                        \
   X(rejected, REJECTED)   /* triangles with a rejected corner, in any order */                    \
@@ -41,10 +41,25 @@ enum class Counter : std::uint8_t {
   rejected_points,     ///< by R3 or R4
   rejected_triangles,  ///< with a corner that is rejected
   tiles,               ///< that large triangles need, whether there was room or not
-  outside_triangles,   ///< that are not wholly inside of the viewport (hardware_text.h)
+  outside_positions,   ///< that are not Place::inside
   full_pixel,          ///< 1 + number of a pixel that has more points than R13 allows, or 0
 };
 inline constexpr std::size_t kCounters = 5;
+
+/// Where a snapped position lies.
+enum class Place : std::int32_t {
+  inside,    ///< of the viewport (kViewportSize): the hardware draws triangles of such corners
+  outside,   ///< but within the guard range
+  rejected,  ///< by R3, R4 or R11; it has no place
+};
+
+/// A position that kernels or the host have snapped, as it lies in the device's memory.
+struct PlacedPosition {
+  std::int32_t x = 0;
+  std::int32_t y = 0;
+  std::int32_t z = 0;
+  Place place = Place::inside;
+};
 
 /// Most points that one pixel may sum (R13).
 inline constexpr std::uint32_t kMostPointsPerPixel = 1U << 19U;
@@ -57,6 +72,9 @@ inline constexpr std::size_t kTriangleGroup = 64;
   return (invocations + group - 1) / group;
 }
 
+/// Points of size 1 that one invocation takes.
+inline constexpr std::uint32_t kSinglePoints = 4;
+
 /// The names above as GLSL sees them.
 [[nodiscard]] std::string kernel_definitions();
 
@@ -64,11 +82,11 @@ inline constexpr std::size_t kTriangleGroup = 64;
 enum class Kernel : std::uint8_t {
   snap_positions,        ///< R2-R4, R11 for the corners of triangles
   draw_points,           ///< R2-R5, R11, R12: snaps and plots
+  draw_single_points,    ///< the same for points of size 1, several an invocation
   classify_triangles,    ///< R6: lists rejected triangles, and the tiles of large ones
   draw_small_triangles,  ///< R6, R7: one invocation a triangle of up to 64 pixels
   draw_tiles,            ///< R6, R7: 64 invocations a tile of 256 x 64 pixels
   sum_points,            ///< R13
-  count_outside,         ///< triangles that are not wholly inside of the viewport
 };
 
 /// The compute programs, each compiled when it is first used.
@@ -85,10 +103,8 @@ class Kernels {
   void bind(Binding binding, const GlBuffer& buffer) const;
 
  private:
-  using Key = std::tuple<Kernel, DrawPass, bool, bool, bool, bool>;
-
   const GlDevice& device_;
-  std::map<Key, GlProgram> programs_;
+  std::map<std::pair<Kernel, ShaderVariant>, GlProgram> programs_;
 };
 
 }  // namespace rangezip

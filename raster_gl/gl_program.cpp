@@ -65,4 +65,11 @@ void GlProgram::set(const char* uniform, const glm::mat4& value) const {
   device_->gl().ProgramUniformMatrix4fv(name(), location, 1, GL_FALSE, &value[0][0]);
 }
 
+void GlProgram::set(const char* uniform,
+                    std::span<const std::array<std::uint32_t, 4>> values) const {
+  const GLint location = device_->gl().GetUniformLocation(name(), uniform);
+  device_->gl().ProgramUniform4uiv(name(), location, static_cast<GLsizei>(values.size()),
+                                   values.front().data());
+}
+
 }  // namespace rangezip

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <initializer_list>
+#include <span>
 #include <string>
 
 #include <glm/mat4x4.hpp>
@@ -29,6 +32,8 @@ class GlProgram {
   void set(const char* uniform, int value) const;
   void set(const char* uniform, unsigned value) const;
   void set(const char* uniform, const glm::mat4& value) const;
+  /// An array of uvec4.
+  void set(const char* uniform, std::span<const std::array<std::uint32_t, 4>> values) const;
 
  private:
   const GlDevice* device_;

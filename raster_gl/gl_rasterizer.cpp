@@ -171,8 +171,12 @@ GlRasterizer::~GlRasterizer() = default;
 
 RasterizerInfo GlRasterizer::info() const {
   const GlDevice& device = state_->objects->device;
+  const ComputeSetup& setup = state_->objects->painters->tools.setup;
+  std::string how = name_of(strategy());
+  if (strategy() == GlStrategy::compute && setup.has_atomic_int64) how += " in one pass";
+  if (setup.wide_rows) how += ", rows in double";
   return {.name = "gl:" + state_->context->name() + ", " + device.renderer() + ", OpenGL " +
-                  device.version() + ", " + name_of(strategy()),
+                  device.version() + ", " + how,
           .max_extent = {kMaxRasterExtent, kMaxRasterExtent},
           .max_point_size = kMaxPointSize,
           .subpixel_bits = 8,

@@ -4,7 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
-#include "raster_gl/hardware_text.h"
+#include "raster_gl/shader_text.h"
 
 namespace rangezip {
 

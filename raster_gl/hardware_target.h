@@ -10,7 +10,7 @@ namespace rangezip {
 
 /// Where the corner (0, 0) of the image lies in the window, and what depths mean there.
 enum class Projection : std::uint8_t {
-  fixed,   ///< the viewport of hardware_text.h, depths from 0 to 1
+  fixed,   ///< the viewport of shader_text.h, depths from 0 to 1
   native,  ///< OpenGL's defaults: the viewport is the image, depths from -1 to 1
 };
 

@@ -5,7 +5,7 @@
 
 #include "core/base/error.h"
 #include "raster_gl/gathered_triangles.h"
-#include "raster_gl/hardware_text.h"
+#include "raster_gl/shader_text.h"
 
 namespace rangezip {
 
@@ -45,8 +45,10 @@ DrawReport NativePainter::draw(const View& view, std::span<const DrawItem> items
     throw BackendError("native OpenGL has 8 clip planes, the view " + std::to_string(clip_planes_));
   }
   const GlFunctions& gl = tools_.device.gl();
-  for (std::size_t plane = 0; plane < clip_planes_; ++plane)
-    gl.Enable(GL_CLIP_DISTANCE0 + static_cast<GLenum>(plane));
+  for (std::size_t plane = 0; plane < kMostClipPlanes; ++plane) {
+    const GLenum number = GL_CLIP_DISTANCE0 + static_cast<GLenum>(plane);
+    plane < clip_planes_ ? gl.Enable(number) : gl.Disable(number);
+  }
   const std::size_t most_pixels = tools_.setup.block_bytes / sizeof(std::uint32_t);
   for (const ImagePart& part : parts_of(view.extent(), most_pixels)) {
     target_.begin(part, band, Projection::native);
@@ -64,8 +66,6 @@ DrawReport NativePainter::draw(const View& view, std::span<const DrawItem> items
     target_.read(out);
     target_.end();
   }
-  for (std::size_t plane = 0; plane < clip_planes_; ++plane)
-    gl.Disable(GL_CLIP_DISTANCE0 + static_cast<GLenum>(plane));
   return {};
 }
 
@@ -118,19 +118,19 @@ void NativePainter::load(const DrawTriangles& item) {
 }
 
 const GlProgram& NativePainter::program(bool of_points, const glm::mat4& matrix) {
-  const std::pair key(of_points, has_band_);
+  const ShaderVariant variant{.has_band = has_band_, .has_clip_planes = clip_planes_ > 0};
+  const std::pair key(of_points, variant);
   auto found = programs_.find(key);
   if (found == programs_.end()) {
-    const ShaderVariant variant{.has_band = has_band_};
     GlProgram made(tools_.device, "native OpenGL",
-                   {{GL_VERTEX_SHADER, shader_text::native_vertex()},
+                   {{GL_VERTEX_SHADER, shader_text::native_vertex(variant)},
                     {GL_FRAGMENT_SHADER, shader_text::native_fragment(variant, of_points)}});
     found = programs_.emplace(key, std::move(made)).first;
   }
   const GlProgram& drawing = found->second;
   drawing.set("clip_from_item", matrix);
   drawing.set("clip_planes", static_cast<unsigned>(clip_planes_));
-  tools_.kernels.bind(Binding::rows, planes_);
+  tools_.kernels.bind(Binding::clip_rows, planes_);
   tools_.kernels.bind(Binding::corners, corners_);
   return drawing;
 }

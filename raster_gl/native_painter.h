@@ -37,7 +37,7 @@ class NativePainter {
   std::uint64_t loaded_key_ = 0;  ///< of the item whose positions and corners those are, or 0
   std::size_t clip_planes_ = 0;
   bool has_band_ = false;
-  std::map<std::pair<bool, bool>, GlProgram> programs_;  ///< of points or triangles, with a band
+  std::map<std::pair<bool, ShaderVariant>, GlProgram> programs_;  ///< of points, of triangles
 };
 
 }  // namespace rangezip

@@ -6,25 +6,26 @@
 #include <cstddef>
 
 #include "core/base/error.h"
+#include "raster_gl/function_table.h"
 #include "raster_gl/shared_library.h"
 
 namespace rangezip {
 
 namespace {
 
-/// The functions of the library itself; those of OpenGL come through get_proc_address.
-struct OsmesaFunctions {
-  decltype(&OSMesaCreateContextAttribs) create_context = nullptr;
-  decltype(&OSMesaDestroyContext) destroy_context = nullptr;
-  decltype(&OSMesaMakeCurrent) make_current = nullptr;
-  decltype(&OSMesaGetProcAddress) get_proc_address = nullptr;
+/// The functions of the library itself; those of OpenGL come through GetProcAddress.
+#define RANGEZIP_OSMESA_FUNCTIONS(X) \
+  X(OSMesa, CreateContextAttribs)    \
+  X(OSMesa, DestroyContext)          \
+  X(OSMesa, MakeCurrent)             \
+  X(OSMesa, GetProcAddress)
 
+struct OsmesaFunctions {
   explicit OsmesaFunctions(const SharedLibrary& library) {
-    library.find("OSMesaCreateContextAttribs", create_context);
-    library.find("OSMesaDestroyContext", destroy_context);
-    library.find("OSMesaMakeCurrent", make_current);
-    library.find("OSMesaGetProcAddress", get_proc_address);
+    const auto find = [&](const char* name, auto& function) { library.find(name, function); };
+    RANGEZIP_OSMESA_FUNCTIONS(RANGEZIP_FIND_FUNCTION)
   }
+  RANGEZIP_OSMESA_FUNCTIONS(RANGEZIP_FUNCTION_MEMBER)
 };
 
 class OsmesaContext final : public GlContext {
@@ -39,26 +40,26 @@ class OsmesaContext final : public GlContext {
                                      OSMESA_CONTEXT_MINOR_VERSION,
                                      5,
                                      0};
-    context_ = osmesa_.create_context(kAttributes.data(), nullptr);
+    context_ = osmesa_.CreateContextAttribs(kAttributes.data(), nullptr);
     if (context_ == nullptr) {
       throw BackendError(library.name() + " offers no OpenGL 4.5 core context");
     }
   }
-  ~OsmesaContext() override { osmesa_.destroy_context(context_); }
+  ~OsmesaContext() override { osmesa_.DestroyContext(context_); }
 
   [[nodiscard]] std::string name() const override { return "osmesa"; }
 
   [[nodiscard]] Function function(const char* name) const override {
-    return osmesa_.get_proc_address(name);
+    return osmesa_.GetProcAddress(name);
   }
 
  private:
   void make_current() override {
-    if (osmesa_.make_current(context_, window_.data(), GL_UNSIGNED_BYTE, kSide, kSide) != GL_TRUE) {
+    if (osmesa_.MakeCurrent(context_, window_.data(), GL_UNSIGNED_BYTE, kSide, kSide) != GL_TRUE) {
       throw BackendError("OSMesaMakeCurrent refuses the context");
     }
   }
-  void release() noexcept override { osmesa_.make_current(nullptr, nullptr, 0, 0, 0); }
+  void release() noexcept override { osmesa_.MakeCurrent(nullptr, nullptr, 0, 0, 0); }
 
   static constexpr int kSide = 16;
   static constexpr std::size_t kBytesPerPixel = 4;

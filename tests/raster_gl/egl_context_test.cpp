@@ -1,4 +1,7 @@
 #include <catch2/catch.hpp>
+#include <cstdlib>
+#include <map>
+#include <string>
 #include <thread>
 
 #include "core/base/error.h"
@@ -51,6 +54,30 @@ TEST_CASE("a library that is missing or not EGL is an error that names it") {
   CHECK_THROWS_WITH(make_egl_device_context(0, "libm.so.6"),
                     Contains("libm.so.6 has no function eglBindAPI"));
   CHECK_THROWS_AS(count_egl_devices("libNoSuchEGL.so.1"), BackendError);
+}
+
+/// Makes a context of the library in fake_egl.cpp, with one fault, current.
+void use_faulty_egl(const std::string& fault) {
+  REQUIRE(setenv("RANGEZIP_FAKE_EGL", fault.c_str(), 1) == 0);
+  const auto context = make_egl_device_context(0, RANGEZIP_FAKE_EGL);
+  const CurrentContext current(*context);
+}
+
+TEST_CASE("an EGL without a driver for us is an error that says what it lacks") {
+  const std::map<std::string, std::string> errors{
+      {"no platforms", "EGL: there is no extension EGL_EXT_device_enumeration"},
+      {"no device", "EGL: there is no device 0, only 0 in all"},
+      {"no display", "EGL: there is no display without a screen (error 0x3009)"},
+      {"display does not start", "EGL: the display does not start (error 0x3009)"},
+      {"needs surfaces", "EGL: there is no extension EGL_KHR_surfaceless_context"},
+      {"old OpenGL", "EGL: there is no OpenGL 4.5 core context (error 0x3009)"},
+      {"not current", "EGL: the context cannot be made current (error 0x3009)"}};
+  for (const auto& [fault, error] : errors) {
+    CAPTURE(fault);
+    CHECK_THROWS_AS(use_faulty_egl(fault), BackendError);
+    CHECK_THROWS_WITH(use_faulty_egl(fault), Catch::StartsWith(error));
+  }
+  CHECK_NOTHROW(use_faulty_egl("none"));
 }
 
 TEST_CASE("contexts are made by name, and an unknown name is refused with the known ones") {

@@ -82,8 +82,8 @@ class FakeContext final : public GlContext {
   [[nodiscard]] std::string name() const override { return "fake"; }
   [[nodiscard]] Function function(const char* name) const override {
     if (missing_ == name) return nullptr;
-    if (missing_.empty() && std::string("glGetIntegerv") == name) {
-      return reinterpret_cast<Function>(&version_3_3);
+    if (std::string("glGetIntegerv") == name) {
+      return reinterpret_cast<Function>(missing_.empty() ? &version_3_3 : &version_5_5);
     }
     return real_.function(name);
   }
@@ -91,6 +91,7 @@ class FakeContext final : public GlContext {
 
  private:
   static void version_3_3(unsigned /*name*/, int* value) { *value = 3; }
+  static void version_5_5(unsigned /*name*/, int* value) { *value = 5; }
   void make_current() override {
     if (missing_ == "current") throw BackendError("refused");
     ++balance_;

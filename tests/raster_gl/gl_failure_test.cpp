@@ -1,15 +1,19 @@
 // Drivers that lack something, break a rule, or fail while drawing.
 
+#include <array>
 #include <catch2/catch.hpp>
+#include <cstdint>
 #include <cstring>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 
 #include "core/base/error.h"
 #include "raster_cpu/cpu_rasterizer.h"
 #include "raster_gl/context_list.h"
+#include "raster_gl/gl_buffer.h"
 #include "raster_gl/gl_rasterizer.h"
 #include "raster_gl/self_test.h"
 #include "tests/support/lattice.h"
@@ -22,12 +26,13 @@ using Catch::Contains;
 
 /// Set by a test; the functions of OpenGL have no object.
 unsigned next_error = 0;
+unsigned error_after = 0;
 unsigned reset_status = 0;
 bool hides_int64 = false;
 const unsigned char* (*real_get_stringi)(unsigned, unsigned) = nullptr;
 
 unsigned get_error() {
-  return std::exchange(next_error, 0U);
+  return std::exchange(next_error, std::exchange(error_after, 0U));
 }
 unsigned get_reset_status() {
   return reset_status;
@@ -45,6 +50,7 @@ class FaultyContext final : public GlContext {
  public:
   explicit FaultyContext(bool draws = true) : draws_(draws) {
     next_error = 0;
+    error_after = 0;
     reset_status = 0;
     hides_int64 = false;
   }
@@ -88,11 +94,37 @@ TEST_CASE("out of memory and the loss of the context are errors that say so") {
   Grid<PixelMoments> sums;
   CHECK_THROWS_WITH(rasterizer.accumulate(view, items, lattice::whole_window(kExtent, 0, 4), sums),
                     Contains("invalid value"));
+  // Of two errors the first is told, and the other is gone.
+  next_error = kOutOfMemory;
+  error_after = kInvalidValue;
+  CHECK_THROWS_WITH(rasterizer.render(view, items), Contains("out of memory"));
+  CHECK_NOTHROW(rasterizer.render(view, items));
   reset_status = kGuiltyReset;
   CHECK_THROWS_WITH(rasterizer.render(view, items), Contains("the context was lost"));
   // What was an error of one drawing is none of the next.
   reset_status = 0;
   CHECK(rasterizer.render(view, items).id[{0, 0}] == 0);
+}
+
+TEST_CASE(
+    "a buffer that the driver has no memory for is an error with its size, and the next is none") {
+  for (const char* name : {"osmesa", "egl:surfaceless"}) {
+    CAPTURE(name);
+    const auto context = make_gl_context(name);
+    const CurrentContext current(*context);
+    const GlDevice device(current, {});
+    GlBuffer buffer(device);
+    constexpr std::size_t kPetabyte = std::size_t{1} << 50;
+    CHECK_THROWS_AS(buffer.reserve(kPetabyte, "the cloud"), BackendError);
+    CHECK_THROWS_WITH(buffer.reserve(kPetabyte, "the cloud"),
+                      Contains("1125899906842624 bytes for the cloud: out of memory; the driver "
+                               "says: GL_OUT_OF_MEMORY"));
+    const std::array<std::uint32_t, 2> values{7, 8};
+    std::array<std::uint32_t, 2> read{};
+    buffer.upload(std::span(values), "two numbers");
+    buffer.download(std::span(read));
+    CHECK(read == values);
+  }
 }
 
 TEST_CASE("a driver without 64-bit integers is refused with the name of the extension") {

@@ -3,7 +3,9 @@
 #define CATCH_CONFIG_EXTERNAL_INTERFACES
 #include <catch2/catch.hpp>
 #include <map>
+#include <sstream>
 
+#include "core/base/error.h"
 #include "raster_gl/context_list.h"
 #include "raster_gl/gl_rasterizer.h"
 
@@ -46,19 +48,25 @@ struct EndOfRasterizers : Catch::TestEventListenerBase {
   }
 };
 
+std::unique_ptr<GlRasterizer> start(const std::string& name) {
+  std::istringstream words(name);
+  std::string context, strategy = "automatic", wish;
+  words >> context >> strategy >> wish;
+  auto rasterizer = std::make_unique<GlRasterizer>(make_gl_context(context),
+                                                   GlOptions{.strategy = gl_strategy(strategy)});
+  if (wish == "one_pass" && rasterizer->info().name.find("one pass") == std::string::npos) {
+    throw BackendError(rasterizer->info().name + ": takes two passes");
+  }
+  return rasterizer;
+}
+
 }  // namespace
 
 CATCH_REGISTER_LISTENER(EndOfRasterizers)
 
 std::unique_ptr<Rasterizer> make_shared_gl(const std::string& name) {
   std::unique_ptr<GlRasterizer>& shared = started_rasterizers()[name];
-  if (shared == nullptr) {
-    const std::size_t blank = name.find(' ');
-    shared = std::make_unique<GlRasterizer>(
-        make_gl_context(name.substr(0, blank)),
-        GlOptions{.strategy = blank == std::string::npos ? GlStrategy::automatic
-                                                         : gl_strategy(name.substr(blank + 1))});
-  }
+  if (shared == nullptr) shared = start(name);
   return std::make_unique<SharedRasterizer>(*shared);
 }
 
