@@ -9,5 +9,6 @@
 ///     LIST(RANGEZIP_FUNCTION_MEMBER)
 ///   };
 /// The functions' declarations must be included: they give the types.
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a declaration
 #define RANGEZIP_FUNCTION_MEMBER(prefix, name) decltype(&::prefix##name) name = nullptr;
 #define RANGEZIP_FIND_FUNCTION(prefix, name) find(#prefix #name, name);
