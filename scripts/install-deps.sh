@@ -15,6 +15,7 @@ packages=(
   libosmesa6 libosmesa6-dev             # raster_gl: software OpenGL and its headers
   libegl1 libegl-dev libgl-dev          # raster_gl: OpenGL on a GPU without a display
   libgl1-mesa-dri                       # raster_gl: Mesa's drivers behind EGL
+  mesa-vulkan-drivers                   # tests: the software driver that has 64-bit atomics
   libcgal-dev libgmp-dev libmpfr-dev    # compare: the independent judge
   libcli11-dev libspdlog-dev libfmt-dev # apps
   catch2 libbenchmark-dev time          # tests, benchmarks
