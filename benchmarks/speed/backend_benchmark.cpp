@@ -11,9 +11,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <string>
 #include <utility>
 #include <vector>
@@ -197,12 +195,6 @@ void run_program(const std::vector<std::string>& arguments) {
 }  // namespace rangezip::benchmark
 
 int main(int argc, char** argv) {
-  using namespace rangezip;
-  try {
-    benchmark::run_program({argv + 1, argv + argc});
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "backend_benchmark: %s\n", error.what());
-    return 1;
-  }
-  return 0;
+  using namespace rangezip::benchmark;
+  return exit_code_of("backend_benchmark", [&] { run_program({argv + 1, argv + argc}); });
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <optional>
 
 #include "benchmarks/report.h"
@@ -80,6 +81,16 @@ void run_and_store(const std::string& program, const RunOptions& options,
     file->write(report.dump(1) + "\n");
     file->commit();
   }
+}
+
+int exit_code_of(const std::string& program, const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", program.c_str(), error.what());
+    return 1;
+  }
+  return 0;
 }
 
 }  // namespace rangezip::benchmark

@@ -33,4 +33,7 @@ void run_and_store(
     const std::string& program, const RunOptions& options,
     const std::function<void(Results& results, nlohmann::ordered_json& report)>& run);
 
+/// Carries out `work` of a program. @return 0, or 1 if it throws: the error stream says what
+int exit_code_of(const std::string& program, const std::function<void()>& work);
+
 }  // namespace rangezip::benchmark

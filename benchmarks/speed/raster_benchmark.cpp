@@ -6,8 +6,6 @@
 // the bytes of each scene. benchmarks/table.py makes tables of the JSON.
 
 #include <array>
-#include <cstdio>
-#include <exception>
 #include <string>
 #include <thread>
 #include <vector>
@@ -187,12 +185,6 @@ void run_program(const std::vector<std::string>& arguments) {
 }  // namespace rangezip::benchmark
 
 int main(int argc, char** argv) {
-  using namespace rangezip;
-  try {
-    benchmark::run_program({argv + 1, argv + argc});
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "raster_benchmark: %s\n", error.what());
-    return 1;
-  }
-  return 0;
+  using namespace rangezip::benchmark;
+  return exit_code_of("raster_benchmark", [&] { run_program({argv + 1, argv + argc}); });
 }
