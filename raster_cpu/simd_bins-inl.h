@@ -26,17 +26,16 @@ HWY_INLINE void append_lanes(PointBins& bins, IntVec bin, IntVec high, IntVec lo
   const Ints d;
   // With many bins the hardware does not fetch what is written next.
   constexpr std::ptrdiff_t kAhead = 16;
-  alignas(64) std::array<std::int32_t, 2 * kLanes> halves;
-  alignas(64) std::array<BinEntry, kLanes> entries;
+  alignas(64) std::array<std::int32_t, 2 * kLanes> entries;
   alignas(64) std::array<std::int32_t, kLanes> numbers;
-  hn::StoreInterleaved2(low, high, d, halves.data());
-  std::memcpy(entries.data(), halves.data(), sizeof(entries));
+  hn::StoreInterleaved2(low, high, d, entries.data());
   hn::Store(bin, d, numbers.data());
   BinEntry** const cursors = bins.cursors();
   for_each_bit(bits_of(which), [&](std::size_t lane) {
-    const auto number = static_cast<std::size_t>(numbers[lane]);
+    const auto number = static_cast<std::uint32_t>(numbers[lane]);
     BinEntry* cursor = cursors[number];
-    *cursor++ = entries[lane];
+    // Copied by itself: compilers copy all entries of a vector through general registers.
+    std::memcpy(cursor++, &entries[2 * lane], sizeof(BinEntry));
     hwy::Prefetch(cursor + kAhead);
     cursors[number] = PointBins::is_block_full(cursor) ? bins.grow(number, cursor) : cursor;
   });

@@ -105,7 +105,7 @@ class PointBinner {
       : rows_(rows), layout_(layout), bins_(bins), size_(kIsSingle ? 1 : size) {}
 
   /// Points `number` and up of the run. @return number of lanes rejected by R3 or R4
-  HWY_INLINE std::size_t add(const Vec3f* positions, std::uint32_t number) {
+  HWY_INLINE std::size_t operator()(const Vec3f* positions, std::size_t number) const {
     const Ints d;
     const Lanes p = load(positions);
     const SnappedLanes s = snap_lanes<kIsCentral>(rows_, p);
@@ -136,8 +136,8 @@ class PointBinner {
     return hn::ShiftRightSame(y, layout_.rows_log2);
   }
 
-  HWY_INLINE void append(IntVec band, IntVec x, IntVec y, IntVec z, std::uint32_t number,
-                         Mask which) {
+  HWY_INLINE void append(IntVec band, IntVec x, IntVec y, IntVec z, std::size_t number,
+                         Mask which) const {
     const Ints d;
     const IntVec margin = hn::Set(d, layout_.margin);
     const IntVec row = hn::Add(hn::Sub(y, hn::ShiftLeftSame(band, layout_.rows_log2)), margin);
@@ -161,10 +161,7 @@ class PointBinner {
 template <bool kIsCentral, bool kIsSingle>
 std::size_t bin_all_points(const RowTransform& rows, std::span<const Vec3f> positions, int size,
                            const BandLayout& layout, PointBins& bins) {
-  PointBinner<kIsCentral, kIsSingle> binner(rows, size, layout, bins);
-  return for_each_vector(positions, [&](const Vec3f* at, std::size_t number) {
-    return binner.add(at, static_cast<std::uint32_t>(number));
-  });
+  return for_each_vector(positions, PointBinner<kIsCentral, kIsSingle>(rows, size, layout, bins));
 }
 
 std::size_t bin_points(const RowTransform& rows, std::span<const Vec3f> positions, int size,
@@ -182,22 +179,33 @@ PixelKey key_of(Fragment fragment, PrimitiveId first_id) {
   return make_key(depth_of(fragment), first_id + number_in_run(fragment));
 }
 
-/// Fragments to be fetched before they are needed: 16 cache lines.
-constexpr std::size_t kFetchAhead = 128;
+constexpr std::size_t kLineFragments = 64 / sizeof(Fragment);
 
-/// Where the next run begins, the hardware cannot know.
-void fetch_begin(std::span<const Fragment> fragments) {
-  constexpr std::size_t kLine = 64 / sizeof(Fragment);
-  for (std::size_t i = 0; i < std::min(kFetchAhead, fragments.size()); i += kLine)
+void fetch(std::span<const Fragment> fragments) {
+  for (std::size_t i = 0; i < fragments.size(); i += kLineFragments)
     hwy::Prefetch(&fragments[i]);
 }
 
-void lower_pixels(const PointBins::Run& run, PixelKey* keys) {
-  for (const Fragment& fragment : run.entries) {
-    hwy::Prefetch(&fragment + kFetchAhead);
+/// Calls visit(fragment) for every fragment of a run, and fetches the run `next` meanwhile: a line
+/// for a line, since where a run begins the hardware cannot know.
+template <class Visit>
+HWY_INLINE void for_each_fragment(std::span<const Fragment> run, std::span<const Fragment> next,
+                                  const Visit& visit) {
+  std::size_t i = 0;
+  for (; i + kLineFragments <= run.size(); i += kLineFragments) {
+    if (i < next.size()) hwy::Prefetch(&next[i]);
+    for (std::size_t k = i; k < i + kLineFragments; ++k)
+      visit(run[k]);
+  }
+  for (; i < run.size(); ++i)
+    visit(run[i]);
+}
+
+void lower_pixels(const PointBins::Run& run, std::span<const Fragment> next, PixelKey* keys) {
+  for_each_fragment(run.entries, next, [&](Fragment fragment) {
     PixelKey& key = keys[tile_pixel(fragment)];
     key = std::min(key, key_of(fragment, run.first_id));
-  }
+  });
 }
 
 /// Lowers kCount pixels of a row: by the largest vectors that fit, then by smaller ones.
@@ -212,20 +220,21 @@ HWY_INLINE void lower_row(PixelKey* row, PixelKey wanted) {
 }
 
 template <std::size_t kSize>
-void lower_squares(const PointBins::Run& run, PixelKey* keys, std::size_t stride) {
-  for (const Fragment fragment : run.entries) {
+void lower_squares(const PointBins::Run& run, std::span<const Fragment> next, PixelKey* keys,
+                   std::size_t stride) {
+  for_each_fragment(run.entries, next, [&](Fragment fragment) {
     const PixelKey wanted = key_of(fragment, run.first_id);
     PixelKey* row = keys + tile_pixel(fragment);
     for (std::size_t y = 0; y < kSize; ++y, row += stride)
       lower_row<kSize>(row, wanted);
-  }
+  });
 }
 
 /// R12: a pixel counts where the depth lies in its interval.
-void lower_in_band(const PointBins::Run& run, PixelKey* keys, std::size_t stride,
-                   const Tile::Depths& depths) {
+void lower_in_band(const PointBins::Run& run, std::span<const Fragment> next, PixelKey* keys,
+                   std::size_t stride, const Tile::Depths& depths) {
   const auto size = static_cast<std::size_t>(run.point_size);
-  for (const Fragment fragment : run.entries) {
+  for_each_fragment(run.entries, next, [&](Fragment fragment) {
     const PixelKey wanted = key_of(fragment, run.first_id);
     const auto depth = static_cast<std::int32_t>(depth_of(fragment));
     std::size_t row = tile_pixel(fragment);
@@ -235,32 +244,33 @@ void lower_in_band(const PointBins::Run& run, PixelKey* keys, std::size_t stride
         keys[pixel] = std::min(keys[pixel], counts ? wanted : kEmptyPixel);
       }
     }
-  }
+  });
 }
 
-void draw_run(const PointBins::Run& run, Tile& tile) {
+void draw_run(const PointBins::Run& run, std::span<const Fragment> next, Tile& tile) {
   PixelKey* const keys = tile.keys();
   const Tile::Depths depths = tile.depths();
-  if (depths.lower != nullptr) return lower_in_band(run, keys, tile.stride(), depths);
+  if (depths.lower != nullptr) return lower_in_band(run, next, keys, tile.stride(), depths);
   static_assert(kMaxBinnedSize == 5);
   switch (run.point_size) {
     case 1:
-      return lower_pixels(run, keys);
+      return lower_pixels(run, next, keys);
     case 2:
-      return lower_squares<2>(run, keys, tile.stride());
+      return lower_squares<2>(run, next, keys, tile.stride());
     case 3:
-      return lower_squares<3>(run, keys, tile.stride());
+      return lower_squares<3>(run, next, keys, tile.stride());
     case 4:
-      return lower_squares<4>(run, keys, tile.stride());
+      return lower_squares<4>(run, next, keys, tile.stride());
     default:
-      return lower_squares<5>(run, keys, tile.stride());
+      return lower_squares<5>(run, next, keys, tile.stride());
   }
 }
 
 void draw_fragments(std::span<const PointBins::Run> runs, Tile& tile) {
+  if (!runs.empty()) fetch(runs.front().entries);
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (i + 1 < runs.size()) fetch_begin(runs[i + 1].entries);
-    draw_run(runs[i], tile);
+    const bool is_last = i + 1 == runs.size();
+    draw_run(runs[i], is_last ? std::span<const Fragment>() : runs[i + 1].entries, tile);
   }
 }
 
