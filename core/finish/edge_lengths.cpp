@@ -10,11 +10,23 @@
 namespace rangezip {
 namespace {
 
-constexpr double kExponent = 1.0 / 3.0;
 constexpr double kLargestRatio = 1.6;   // to the mean, both ways
 constexpr double kLeastBending = 0.02;  // radians over an edge
 constexpr int kSmoothings = 4;
 constexpr int kScalings = 4;
+
+/// x^(-1/3) of a positive number, by operations that are the same in every mathematical library.
+double inverse_cube_root(double x) {
+  int exponent = 0;
+  const double fraction = std::frexp(x, &exponent);  // [0.5, 1)
+  const int third = (exponent + (exponent > 0 ? 2 : 0)) / 3;
+  const double rest = std::ldexp(fraction, exponent - 3 * third);  // [1/8, 1)
+  double root = 1.0;
+  constexpr int kSteps = 8;
+  for (int i = 0; i < kSteps; ++i)  // Newton's, from below
+    root *= (4.0 - rest * root * root * root) / 3.0;
+  return std::ldexp(root, -third);
+}
 
 double frobenius(const Mat3& m) {
   return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
@@ -35,17 +47,15 @@ void smooth(const CornerTable& table, std::vector<double>& values) {
   values = std::move(next);
 }
 
-/// The length of a logarithm over the logarithm of the mean.
-double bounded_length(double logarithm, double mean) {
-  const double most = std::log(kLargestRatio);
-  return std::exp(std::clamp(logarithm - mean, -most, most));
+double bounded(double length) {
+  return std::clamp(length, 1.0 / kLargestRatio, kLargestRatio);
 }
 
-/// The logarithm of the mean for which the triangles, of area as the squared length, are as many as
-/// with length 1.
-double scale_of(const CornerTable& table, const std::vector<Vec3>& positions,
-                const std::vector<double>& logarithms) {
-  double mean = 0.0;
+/// The unit in which the bounded lengths give as many triangles, of area as their squares, as
+/// length 1 everywhere.
+double unit_of(const CornerTable& table, const std::vector<Vec3>& positions,
+               const std::vector<double>& lengths) {
+  double unit = 1.0;
   for (int i = 0; i < kScalings; ++i) {
     double area = 0.0, triangles = 0.0;
     for (std::uint32_t f = 0; f < table.face_count(); ++f) {
@@ -53,14 +63,14 @@ double scale_of(const CornerTable& table, const std::vector<Vec3>& positions,
       const double size = glm::length(face_area_vector(table, positions, f));
       area += size;
       for (const std::uint32_t v : table.triangle(f)) {
-        const double length = bounded_length(logarithms[v], mean);
+        const double length = bounded(lengths[v] / unit);
         triangles += size / (3.0 * length * length);
       }
     }
-    if (!(area > 0.0)) return mean;
-    mean -= 0.5 * std::log(triangles / area);
+    if (!(area > 0.0)) return unit;
+    unit *= std::sqrt(area / triangles);
   }
-  return mean;
+  return unit;
 }
 
 }  // namespace
@@ -68,17 +78,17 @@ double scale_of(const CornerTable& table, const std::vector<Vec3>& positions,
 std::vector<double> relative_edge_lengths(const CornerTable& table,
                                           const std::vector<Vec3>& positions,
                                           const std::vector<SurfaceFit>& fits, double length) {
-  std::vector<double> logarithms(positions.size(), 0.0);
+  std::vector<double> lengths(positions.size(), 0.0);
   for (std::size_t v = 0; v < fits.size(); ++v) {
     const double bending = fits[v].is_found ? frobenius(fits[v].bending) * length : 0.0;
-    logarithms[v] = -kExponent * std::log(std::max(bending, kLeastBending));
+    lengths[v] = inverse_cube_root(std::max(bending, kLeastBending));
   }
   for (int i = 0; i < kSmoothings; ++i)
-    smooth(table, logarithms);
-  const double mean = scale_of(table, positions, logarithms);
-  for (double& value : logarithms)
-    value = bounded_length(value, mean);
-  return logarithms;
+    smooth(table, lengths);
+  const double unit = unit_of(table, positions, lengths);
+  for (double& value : lengths)
+    value = bounded(value / unit);
+  return lengths;
 }
 
 }  // namespace rangezip

@@ -42,9 +42,9 @@ class Cleaner {
 
  private:
   [[nodiscard]] const Vec3& at(std::uint32_t vertex) const { return positions_[vertex]; }
-  /// A feature vertex may only move along the feature.
+  /// A feature vertex may only move along the feature, and a corner nowhere.
   [[nodiscard]] bool may_collapse(std::uint32_t c) const {
-    const bool leaves = is_feature_[table_.vertex(c)] != 0 && is_feature_[table_.head(c)] == 0;
+    const bool leaves = is_feature_[table_.vertex(c)] > is_feature_[table_.head(c)];
     return !leaves && table_.is_collapse_ok(c);
   }
 

@@ -20,6 +20,10 @@ namespace {
 
 /// In h: about half the radius in which points around a vertex are looked for.
 constexpr double kPointCell = 0.7;
+/// In h: fits of a wider radius use one mean point a cell.
+constexpr double kThinnedFrom = 2.4;
+/// Cells along each side of one of the cloud's.
+constexpr int kThinnedCells = 2;
 /// In h: how far beyond the mesh points may matter.
 constexpr double kRegionMargin = 4.0;
 
@@ -60,7 +64,10 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
   const FitWindow fit = choose_fit_window(mesh, cloud, h);
   report.noise = fit.noise;
   report.fit_radius = fit.window.radius;
-  const RemeshReport remeshed = remesh(mesh, cloud,
+  const bool is_wide = fit.window.radius > kThinnedFrom * h;
+  const PointGrid thinned = is_wide ? cloud.thinned(kThinnedCells) : PointGrid({}, Box{}, h);
+  const PointGrid& surface = is_wide ? thinned : cloud;
+  const RemeshReport remeshed = remesh(mesh, cloud, surface,
                                        {.pixel_size = h,
                                         .window = fit.window,
                                         .triangles = options.triangles,
@@ -70,7 +77,7 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
   report.collapsed_edges = remeshed.collapsed_edges;
   report.flipped_edges = remeshed.flipped_edges;
   report.flattened_spikes = remeshed.flattened_spikes;
-  fit_vertices(mesh, cloud, fit.window, progress);
+  fit_vertices(mesh, surface, fit.window, progress);
   repair(mesh, cloud, options, report, progress);
   if (options.snap_features) snap(mesh, cloud, fit, options, report, progress);
   const ExtendBorderReport extended = extend_border(

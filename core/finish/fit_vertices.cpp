@@ -27,9 +27,9 @@ using CornerValues = std::array<double, 3>;
 
 class Fitter {
  public:
-  Fitter(TriangleMesh& mesh, const PointGrid& cloud, const SurfaceWindow& window)
+  Fitter(TriangleMesh& mesh, const PointGrid& surface, const SurfaceWindow& window)
       : mesh_(mesh),
-        cloud_(cloud),
+        surface_(surface),
         window_(window),
         table_(mesh.triangles, mesh.positions.size()),
         normals_(mesh.positions.size()) {
@@ -83,7 +83,7 @@ class Fitter {
         normal += w[k] * normals_[t[k]];
       }
       normal = unit_or_z(normal);
-      const SurfaceFit fit = fit_surface(cloud_, place, normal, window_);
+      const SurfaceFit fit = fit_surface(surface_, place, normal, window_);
       if (!fit.is_found || glm::dot(fit.normal, normal) < kMinCosine) continue;
       for (std::size_t k = 0; k < 3; ++k)
         sums[k] += area_of(face) / 3.0 * w[k] * fit.height;
@@ -112,7 +112,7 @@ class Fitter {
   }
 
   TriangleMesh& mesh_;
-  const PointGrid& cloud_;
+  const PointGrid& surface_;
   SurfaceWindow window_;
   CornerTable table_;
   std::vector<Vec3> normals_;
@@ -120,11 +120,11 @@ class Fitter {
 
 }  // namespace
 
-void fit_vertices(TriangleMesh& mesh, const PointGrid& cloud, const SurfaceWindow& window,
+void fit_vertices(TriangleMesh& mesh, const PointGrid& surface, const SurfaceWindow& window,
                   const Progress& progress) {
-  if (cloud.empty()) return;
+  if (surface.empty()) return;
   progress.check_stop();
-  Fitter(mesh, cloud, window).run();
+  Fitter(mesh, surface, window).run();
 }
 
 }  // namespace rangezip

@@ -14,8 +14,9 @@ namespace rangezip {
 /// mass matrix of piecewise linear functions, and a few damped steps solve it, each of them local.
 /// A vertex stays if a face would turn by more than 60 degrees. The topology and the boundary stay.
 /// Cost: three fits a triangle, in parallel.
+/// @param surface the cloud, or PointGrid::thinned() where the window is wide
 /// @pre oriented, manifold (core/finish/clean_topology.h)
-void fit_vertices(TriangleMesh& mesh, const PointGrid& cloud, const SurfaceWindow& window,
+void fit_vertices(TriangleMesh& mesh, const PointGrid& surface, const SurfaceWindow& window,
                   const Progress& progress = {});
 
 }  // namespace rangezip

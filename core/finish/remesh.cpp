@@ -37,9 +37,11 @@ constexpr std::size_t kPerBlock = 512;
 
 class Remesher {
  public:
-  Remesher(TriangleMesh& mesh, const PointGrid& cloud, const RemeshOptions& options)
+  Remesher(TriangleMesh& mesh, const PointGrid& cloud, const PointGrid& surface,
+           const RemeshOptions& options)
       : positions_(mesh.positions),
         cloud_(cloud),
+        surface_(surface),
         options_(options),
         table_(mesh.triangles, mesh.positions.size()),
         faces_(mesh.triangles.size()),
@@ -202,7 +204,7 @@ class Remesher {
 
   [[nodiscard]] Vec3 projected(std::uint32_t v, const Vec3& p, const Vec3& normal) {
     SurfaceFit& fit = fits_[v];
-    fit = fit_surface(cloud_, p, normal, options_.window);
+    fit = fit_surface(surface_, p, normal, options_.window);
     if (fit.is_found && glm::dot(fit.normal, normal) < kFitMinCosine) fit.is_found = false;
     return fit.is_found ? p + fit.height * normal : p;
   }
@@ -217,6 +219,7 @@ class Remesher {
 
   std::vector<Vec3>& positions_;
   const PointGrid& cloud_;
+  const PointGrid& surface_;
   RemeshOptions options_;
   CornerTable table_;
   std::size_t faces_;
@@ -228,13 +231,14 @@ class Remesher {
 
 }  // namespace
 
-RemeshReport remesh(TriangleMesh& mesh, const PointGrid& cloud, const RemeshOptions& options,
-                    const Progress& progress) {
+RemeshReport remesh(TriangleMesh& mesh, const PointGrid& cloud, const PointGrid& surface,
+                    const RemeshOptions& options, const Progress& progress) {
   RemeshReport report;
   if (mesh.triangles.empty()) return report;
-  Remesher remesher(mesh, cloud, options);
+  Remesher remesher(mesh, cloud, surface, options);
   remesher.run(report, progress);
   mesh.triangles = remesher.triangles();
+  if (!mesh.sources.empty()) mesh.sources.resize(mesh.positions.size());
   return report;
 }
 

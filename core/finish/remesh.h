@@ -11,7 +11,7 @@ namespace rangezip {
 
 struct RemeshOptions {
   double pixel_size = 0.0;    ///< h, model units; positive
-  SurfaceWindow window;       ///< of the fits to the cloud
+  SurfaceWindow window;       ///< of the fits to the surface
   std::size_t triangles = 0;  ///< how many there are to be, met within a few percent; 0: as many as
                               ///< there are
   int rounds = 8;             ///< fewer than three keep the number of triangles
@@ -34,9 +34,11 @@ struct RemeshReport {
 /// degrees. The topology and the boundary stay; unused vertices remain. May leave
 /// self-intersections where sheets are close together. Cost: linear; points and vertices are
 /// visited in parallel.
-/// @param cloud without points nothing is projected, and triangles are of one size
+/// @param cloud for telling spikes from tips
+/// @param surface to fit to: the cloud, or PointGrid::thinned() where the window is wide; without
+///     points nothing is projected, and triangles are of one size
 /// @pre oriented, manifold (core/finish/clean_topology.h)
-RemeshReport remesh(TriangleMesh& mesh, const PointGrid& cloud, const RemeshOptions& options,
-                    const Progress& progress = {});
+RemeshReport remesh(TriangleMesh& mesh, const PointGrid& cloud, const PointGrid& surface,
+                    const RemeshOptions& options, const Progress& progress = {});
 
 }  // namespace rangezip

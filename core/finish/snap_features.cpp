@@ -32,6 +32,7 @@ constexpr double kWeightRadius = 4.5;    // of surfaces in the quadric
 constexpr double kHoldInPlace = 1e-3;    // weight of not moving, against sliding along an edge
 constexpr double kMaxMove = 1.5;
 constexpr double kReach = 0.4;          // of the edges around: vertices so near go onto the feature
+constexpr double kCornerReach = 0.8;    // the same for corners, of which none may be missed
 constexpr double kProofRadius = 0.87;   // of that of the fits: points that must lie on the surfaces
 constexpr double kProofSureness = 1.5;  // standard deviations
 constexpr double kProofResidual = 0.06;  // beyond the noise
@@ -88,8 +89,8 @@ struct Side {
 /// Where a vertex goes.
 struct Snap {
   Vec3 move{0.0};
-  bool is_on_feature = false;
-  VertexSurface surface;  ///< of the side, if it is not on the feature
+  std::uint8_t feature = 0;  ///< 1 on an edge, 2 at a corner, 0 on a side
+  VertexSurface surface;     ///< of that side
 };
 
 /// What a surface is over a place, relative to that place.
@@ -193,12 +194,16 @@ class Snapper {
     fit_surfaces();
     progress.check_stop();
     SnapReport report;
+    const std::vector<Vec3> before = positions_;
     std::vector<std::uint8_t> is_feature = snap();
     report.split_edges = split_crossing_edges(is_feature);
-    report.snapped_vertices =
-        static_cast<std::size_t>(std::count(is_feature.begin(), is_feature.end(), 1));
+    report.snapped_vertices = is_feature.size() - static_cast<std::size_t>(std::count(
+                                                      is_feature.begin(), is_feature.end(), 0));
     progress.check_stop();
-    if (report.snapped_vertices == 0) return report;
+    if (report.snapped_vertices == 0) {
+      positions_ = before;  // sides without an edge between them
+      return report;
+    }
     const FeatureCleanupReport cleaned = clean_features(table_, positions_, is_feature, h_);
     report.collapsed_edges = cleaned.collapsed_edges;
     report.flipped_edges = cleaned.flipped_edges;
@@ -242,8 +247,8 @@ class Snapper {
     for (std::size_t v = 0; v < snaps.size(); ++v) {
       if (!snaps[v]) continue;
       positions_[v] += snaps[v]->move;
-      is_feature[v] = snaps[v]->is_on_feature ? 1 : 0;
-      if (!snaps[v]->is_on_feature) surfaces_[v] = snaps[v]->surface;
+      is_feature[v] = snaps[v]->feature;
+      if (snaps[v]->feature == 0) surfaces_[v] = snaps[v]->surface;
     }
     return is_feature;
   }
@@ -256,12 +261,14 @@ class Snapper {
     const std::optional<Vec3> move = meeting_place(surfaces);
     if (!move || glm::length(*move) > kMaxMove * h_) return std::nullopt;
     if (!is_proved(v, *move, sides)) return std::nullopt;
-    if (glm::length(*move) <= kReach * mean_edge_at(v)) return Snap{*move, true, {}};
+    const double reach = sides.size() == kMaxSides ? kCornerReach : kReach;
+    if (glm::length(*move) <= reach * mean_edge_at(v))
+      return Snap{*move, static_cast<std::uint8_t>(sides.size() - 1), {}};
     const Side& nearest = *std::min_element(
         sides.begin(), sides.end(),
         [](const Side& a, const Side& b) { return a.distance(Vec3{0.0}) < b.distance(Vec3{0.0}); });
     return Snap{nearest.foot(),
-                false,
+                0,
                 {.center = positions_[v] + nearest.foot(),
                  .normal = unit_or_z(nearest.height.slope),
                  .bending = nearest.height.bending,
@@ -363,6 +370,7 @@ SnapReport snap_features(TriangleMesh& mesh, const PointGrid& cloud, const SnapO
   Snapper snapper(mesh, cloud, options);
   const SnapReport report = snapper.run(progress);
   mesh.triangles = snapper.triangles();
+  if (!mesh.sources.empty()) mesh.sources.resize(mesh.positions.size());
   return report;
 }
 

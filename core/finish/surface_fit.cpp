@@ -172,12 +172,12 @@ template <class Visit>
 void for_each_sample(const PointGrid& cloud, const Vec3& place, const Frame& frame,
                      const SurfaceWindow& window, const Visit& visit) {
   const double per_radius = 1.0 / window.radius;
-  cloud.for_each_near(place, window.radius, [&](const Vec3& d) {
+  cloud.for_each_counted_near(place, window.radius, [&](const Vec3& d, double count) {
     const double z = glm::dot(d, frame.normal);
     const double nearness = 1.0 - (glm::dot(d, d) - z * z) * per_radius * per_radius;
     if (nearness <= 0.0 || std::abs(z) > window.height) return;
     visit(Sample{glm::dot(d, frame.u) * per_radius, glm::dot(d, frame.v) * per_radius,
-                 z * per_radius, nearness * nearness * nearness});
+                 z * per_radius, count * nearness * nearness * nearness});
   });
 }
 

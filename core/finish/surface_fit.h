@@ -16,7 +16,7 @@ struct SurfaceWindow {
 /// The surface that a cloud shows next to a place, as a quadratic height over the tangent plane.
 struct SurfaceFit {
   bool is_found = false;  ///< false: too few points, or they are no surface; nothing else counts
-  int count = 0;          ///< points with a weight
+  int count = 0;          ///< points with a weight; of a thinned cloud, its points
   double height = 0.0;    ///< of the surface over the place, along the normal that was given
   Vec3 normal{0.0};       ///< unit, of the surface there; on the side of the given one
   Mat3 bending{0.0};      ///< e^T bending e: how the surface bends away along a tangent vector e,
@@ -42,7 +42,7 @@ struct MeasuredFit {
   SurfaceScatter scatter;
 };
 
-/// The same with its scatter, for twice the cost.
+/// The same with its scatter, for twice the cost. @pre the cloud is not thinned
 [[nodiscard]] MeasuredFit measure_surface(const PointGrid& cloud, const Vec3& place,
                                           const Vec3& normal, const SurfaceWindow& window);
 
