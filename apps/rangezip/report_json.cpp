@@ -47,6 +47,7 @@ Json json_of(const FinishReport& finish) {
           {"filled_holes", finish.filled_holes},
           {"filled_faces", finish.filled_faces},
           {"open_loops", finish.open_loops},
+          {"untangled_pairs", finish.untangled_pairs},
           {"noise", finish.noise},
           {"fit_radius", finish.fit_radius},
           {"split_edges", finish.split_edges},

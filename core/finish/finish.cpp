@@ -14,6 +14,7 @@
 #include "core/finish/remesh.h"
 #include "core/finish/repair.h"
 #include "core/finish/snap_features.h"
+#include "core/finish/untangle.h"
 
 namespace rangezip {
 namespace {
@@ -41,8 +42,8 @@ Box region_of(const TriangleMesh& mesh, double margin) {
   return region;
 }
 
-/// Moves vertices onto features; what crosses something then is cut out and closed again, and that
-/// place gets a second chance.
+/// Moves vertices onto features; what crosses something then is pulled apart, or cut out and closed
+/// again, and that place gets a second chance.
 void snap(TriangleMesh& mesh, const PointGrid& cloud, const FitWindow& fit,
           const FinishOptions& options, FinishReport& report, const Progress& progress) {
   constexpr int kRounds = 2;
@@ -53,6 +54,7 @@ void snap(TriangleMesh& mesh, const PointGrid& cloud, const FitWindow& fit,
     report.collapsed_edges += snapped.collapsed_edges;
     report.flipped_edges += snapped.flipped_edges;
     if (snapped.snapped_vertices == 0) return;
+    report.untangled_pairs += untangle(mesh);
     repair(mesh, cloud, options, report, progress);
   }
 }
@@ -78,6 +80,7 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
   report.flipped_edges = remeshed.flipped_edges;
   report.flattened_spikes = remeshed.flattened_spikes;
   fit_vertices(mesh, surface, fit.window, progress);
+  report.untangled_pairs += untangle(mesh);
   repair(mesh, cloud, options, report, progress);
   if (options.snap_features) snap(mesh, cloud, fit, options, report, progress);
   const ExtendBorderReport extended = extend_border(

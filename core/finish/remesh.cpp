@@ -26,11 +26,11 @@ constexpr double kCollapseTurn = 0.7;  // 45 degrees: a collapse may tilt a face
 constexpr double kMinAngleAfterCollapse = 0.15;
 constexpr double kSmallAngle = 0.5;  // 30 degrees
 constexpr double kRelaxStep = 0.7;
-constexpr double kFitMinCosine = 0.6;  // between the fitted surface and the mesh
-constexpr double kMostScaling = 1.1;   // of the wanted length, in a round
-constexpr double kEvenLength = 0.99;   // of the edge of as many equilateral triangles
-constexpr std::array kProjections{1.5, 1.5, 1.0, 1.0};  // before the first round, with windows of
-                                                        // so many radii: the stitched mesh is rough
+constexpr double kFitMinCosine = 0.6;              // between the fitted surface and the mesh
+constexpr double kMostScaling = 1.1;               // of the wanted length, in a round
+constexpr double kEvenLength = 0.99;               // of the edge of as many equilateral triangles
+constexpr std::array kProjections{1.5, 1.5, 1.0};  // before the first round, with windows of
+                                                   // so many radii: the stitched mesh is rough
 constexpr int kClosingRounds = 2;
 constexpr int kSizingRounds = 4;  // later ones keep the relative lengths
 constexpr std::size_t kPerBlock = 512;
