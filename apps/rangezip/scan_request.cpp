@@ -234,12 +234,14 @@ void add_scan_choices(CLI::App& command, ScanChoices& choices) {
 
 AddScan make_scan(const Scene& scene, const ScanChoices& choices) {
   const std::vector<Vec3> samples = evidence_points(scene);
-  const Resolution wanted = choose_resolution(scene, samples, choices.pixel_size, std::nullopt);
+  const Resolution wanted =
+      choose_resolution(scene, samples, choices.pixel_size, std::nullopt, false);
   Framing framing = choices.perspective
                         ? frame_perspective(wanted.bounds, wanted.pixel_size, choices)
                         : frame_parallel(wanted.bounds, wanted.pixel_size, choices);
   // What depends on the pixel size follows the one that the image really has.
-  const Resolution resolution = choose_resolution(scene, samples, framing.pixel_size, std::nullopt);
+  const Resolution resolution =
+      choose_resolution(scene, samples, framing.pixel_size, std::nullopt, false);
   const ScanRecipe recipe{.method = choices.method,
                           .bounds = resolution.bounds,
                           .pixel_size = resolution.pixel_size,

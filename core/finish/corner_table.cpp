@@ -158,4 +158,12 @@ std::uint32_t CornerTable::split(std::uint32_t face) {
   return center;
 }
 
+std::uint32_t CornerTable::split_edge(std::uint32_t corner) {
+  assert(names_inner_edge(corner));
+  const std::uint32_t other = across_[corner];
+  const std::uint32_t middle = split(corner / 3);
+  flip(other);  // the edge itself now joins the new vertex to the corner beyond it
+  return middle;
+}
+
 }  // namespace rangezip

@@ -53,6 +53,10 @@ class CornerTable {
   [[nodiscard]] bool is_boundary(std::uint32_t vertex) const noexcept {
     return corner_of_[vertex] == kNone || across_[corner_of_[vertex]] == kNone;
   }
+  /// Whether the half-edge lies inside and has the lower index of the two: true once an inner edge.
+  [[nodiscard]] bool names_inner_edge(std::uint32_t corner) const noexcept {
+    return across_[corner] != kNone && corner < across_[corner];
+  }
   [[nodiscard]] bool is_deleted(std::uint32_t face) const noexcept {
     return vertices_[std::size_t{3} * face] == kNone;
   }
@@ -102,6 +106,9 @@ class CornerTable {
 
   /// Splits a face into three at a new vertex, whose index is returned (vertex_count() before).
   std::uint32_t split(std::uint32_t face);
+  /// Splits an inner edge at a new vertex, whose index is returned; two faces are added.
+  /// @pre names_inner_edge(corner)
+  std::uint32_t split_edge(std::uint32_t corner);
 
  private:
   void link_half_edges();

@@ -42,20 +42,16 @@ class Cleaner {
 
  private:
   [[nodiscard]] const Vec3& at(std::uint32_t vertex) const { return positions_[vertex]; }
-  [[nodiscard]] bool names_inner_edge(std::uint32_t c) const {
-    const std::uint32_t other = table_.across(c);
-    return !table_.is_deleted(c / 3) && other != CornerTable::kNone && c < other;
-  }
-  /// A feature vertex may only move along the feature.
+  /// A feature vertex may only move along the feature, and a corner nowhere.
   [[nodiscard]] bool may_collapse(std::uint32_t c) const {
-    const bool leaves = is_feature_[table_.vertex(c)] != 0 && is_feature_[table_.head(c)] == 0;
+    const bool leaves = is_feature_[table_.vertex(c)] > is_feature_[table_.head(c)];
     return !leaves && table_.is_collapse_ok(c);
   }
 
   void collapse_short_edges() {
     const double limit = kShortEdge * kShortEdge * h_ * h_;
     for (std::uint32_t c = 0; c < table_.corner_count(); ++c) {
-      if (!names_inner_edge(c)) continue;
+      if (!table_.names_inner_edge(c)) continue;
       const Vec3 edge = at(table_.head(c)) - at(table_.vertex(c));
       if (glm::dot(edge, edge) > limit) continue;
       for (const std::uint32_t side : {c, table_.across(c)}) {
@@ -85,7 +81,7 @@ class Cleaner {
 
   void join_features() {
     for (std::uint32_t c = 0; c < table_.corner_count(); ++c) {
-      if (!names_inner_edge(c)) continue;
+      if (!table_.names_inner_edge(c)) continue;
       const std::uint32_t a = table_.vertex(c), b = table_.head(c);
       const std::uint32_t x = table_.apex(c), y = table_.apex(table_.across(c));
       if (is_feature_[x] == 0 || is_feature_[y] == 0) continue;

@@ -17,7 +17,8 @@ struct FeatureCleanupReport {
 /// Tidies the triangles after vertices were pulled onto features: collapses edges shorter than h/2
 /// (never a feature vertex into another kind), turns edges between two faces so that they join
 /// feature vertices, and removes slivers by the collapse or flip that leaves the best angles.
-/// No valid face turns over. @param is_feature per vertex: 1 for those on a feature
+/// No valid face turns over. @param is_feature per vertex: 1 for those on a feature, 2 at a corner
+/// of it
 FeatureCleanupReport clean_features(CornerTable& table, const std::vector<Vec3>& positions,
                                     const std::vector<std::uint8_t>& is_feature, double pixel_size);
 

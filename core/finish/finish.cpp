@@ -1,5 +1,6 @@
 #include "core/finish/finish.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -7,16 +8,23 @@
 #include "core/finish/boundary_loops.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/extend_border.h"
+#include "core/finish/fit_vertices.h"
+#include "core/finish/fit_window.h"
 #include "core/finish/point_grid.h"
-#include "core/finish/relax.h"
+#include "core/finish/remesh.h"
 #include "core/finish/repair.h"
 #include "core/finish/snap_features.h"
+#include "core/finish/untangle.h"
 
 namespace rangezip {
 namespace {
 
 /// In h: about half the radius in which points around a vertex are looked for.
 constexpr double kPointCell = 0.7;
+/// In h: fits of a wider radius use one mean point a cell.
+constexpr double kThinnedFrom = 2.4;
+/// Cells along each side of one of the cloud's.
+constexpr int kThinnedCells = 2;
 /// In h: how far beyond the mesh points may matter.
 constexpr double kRegionMargin = 4.0;
 
@@ -34,6 +42,54 @@ Box region_of(const TriangleMesh& mesh, double margin) {
   return region;
 }
 
+/// Moves vertices onto features; what crosses something then is pulled apart, or cut out and closed
+/// again, and that place gets a second chance.
+void snap(TriangleMesh& mesh, const PointGrid& cloud, const FitWindow& fit,
+          const FinishOptions& options, FinishReport& report, const Progress& progress) {
+  constexpr int kRounds = 2;
+  for (int round = 0; round < kRounds; ++round) {
+    const SnapReport snapped = snap_features(mesh, cloud, {options.pixel_size, fit}, progress);
+    report.snapped_vertices = std::max(report.snapped_vertices, snapped.snapped_vertices);
+    report.split_edges += snapped.split_edges;
+    report.collapsed_edges += snapped.collapsed_edges;
+    report.flipped_edges += snapped.flipped_edges;
+    if (snapped.snapped_vertices == 0) return;
+    report.untangled_pairs += untangle(mesh);
+    repair(mesh, cloud, options, report, progress);
+  }
+}
+
+/// Better triangles, closer to the cloud, of a mesh that is closed and clean.
+void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
+             FinishReport& report, const Progress& progress) {
+  const double h = options.pixel_size;
+  const FitWindow fit = choose_fit_window(mesh, cloud, h);
+  report.noise = fit.noise;
+  report.fit_radius = fit.window.radius;
+  const bool is_wide = fit.window.radius > kThinnedFrom * h;
+  const PointGrid thinned = is_wide ? cloud.thinned(kThinnedCells) : PointGrid({}, Box{}, h);
+  const PointGrid& surface = is_wide ? thinned : cloud;
+  const RemeshReport remeshed = remesh(mesh, cloud, surface,
+                                       {.pixel_size = h,
+                                        .window = fit.window,
+                                        .triangles = options.triangles,
+                                        .rounds = options.relaxations},
+                                       progress);
+  report.split_edges = remeshed.split_edges;
+  report.collapsed_edges = remeshed.collapsed_edges;
+  report.flipped_edges = remeshed.flipped_edges;
+  report.flattened_spikes = remeshed.flattened_spikes;
+  fit_vertices(mesh, surface, fit.window, progress);
+  report.untangled_pairs += untangle(mesh);
+  repair(mesh, cloud, options, report, progress);
+  if (options.snap_features) snap(mesh, cloud, fit, options, report, progress);
+  const ExtendBorderReport extended = extend_border(
+      mesh, cloud, {.pixel_size = h, .min_component = options.min_component}, progress);
+  report.border_steps = extended.steps;
+  report.dropped_components += extended.dropped.components;
+  report.dropped_faces += extended.dropped.faces;
+}
+
 }  // namespace
 
 FinishResult finish(TriangleMesh mesh, std::span<const Vec3> cloud, const FinishOptions& options,
@@ -45,24 +101,7 @@ FinishResult finish(TriangleMesh mesh, std::span<const Vec3> cloud, const Finish
   const double h = options.pixel_size;
   const PointGrid points(cloud, region_of(mesh, kRegionMargin * h), kPointCell * h);
   repair(mesh, points, options, result.report, progress);
-  if (options.method == FinishMethod::full) {
-    const RelaxReport relaxed = relax(mesh, points, {h, options.relaxations}, progress);
-    result.report.collapsed_edges = relaxed.collapsed_edges;
-    result.report.flipped_edges = relaxed.flipped_edges;
-    result.report.flattened_spikes = relaxed.flattened_spikes;
-    if (options.snap_features) {
-      const SnapReport snapped = snap_features(mesh, points, {h}, progress);
-      result.report.snapped_vertices = snapped.snapped_vertices;
-      result.report.collapsed_edges += snapped.collapsed_edges;
-      result.report.flipped_edges += snapped.flipped_edges;
-    }
-    repair(mesh, points, options, result.report, progress);
-    const ExtendBorderReport extended = extend_border(
-        mesh, points, {.pixel_size = h, .min_component = options.min_component}, progress);
-    result.report.border_steps = extended.steps;
-    result.report.dropped_components += extended.dropped.components;
-    result.report.dropped_faces += extended.dropped.faces;
-  }
+  if (options.method == FinishMethod::full) improve(mesh, points, options, result.report, progress);
   const CornerTable table(mesh.triangles, mesh.positions.size());
   result.report.open_loops = boundary_loops(table).size();
   result.mesh = std::move(mesh);

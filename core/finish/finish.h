@@ -20,17 +20,22 @@ struct FinishOptions {
   double max_hole_perimeter = 60.0;  ///< in h: larger holes without points in them stay
   double narrow_width = 3.0;         ///< in h: cracks up to this are closed whatever their length
   int rounds = 5;                    ///< of {cut self-intersections, bridge, fill}, at most
-  int relaxations = 5;               ///< of {collapse, flip, relax, project}
-  bool snap_features = true;         ///< sharp edges and corners
-  std::size_t min_component = 100;   ///< smaller pieces are dropped
+  int relaxations = 8;               ///< of {split, collapse, flip, relax, project}
+  std::size_t triangles = 0;  ///< target of `full`, met within a few percent; 0: as many as come
+  bool snap_features = true;  ///< sharp edges and corners
+  std::size_t min_component = 100;  ///< smaller pieces are dropped
 };
 
 struct FinishReport {
   std::size_t self_intersections_cut = 0;  ///< faces removed because they crossed others
+  std::size_t untangled_pairs = 0;         ///< of faces that crossed after vertices had moved
   std::size_t bridged_loops = 0;
   std::size_t filled_holes = 0;
   std::size_t filled_faces = 0;
   std::size_t open_loops = 0;  ///< boundary loops left
+  double noise = 0.0;          ///< standard deviation of the cloud from the surface, model units
+  double fit_radius = 0.0;     ///< of the points that were taken together for a place, model units
+  std::size_t split_edges = 0;
   std::size_t collapsed_edges = 0;
   std::size_t flipped_edges = 0;
   std::size_t flattened_spikes = 0;

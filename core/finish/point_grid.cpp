@@ -60,4 +60,42 @@ PointGrid::PointGrid(std::span<const Vec3> points, const Box& region, double cel
   starts_.front() = 0;
 }
 
+PointGrid PointGrid::thinned(int parts) const {
+  struct Part {
+    Vec3 sum{0.0};
+    std::uint32_t count = 0;
+  };
+  PointGrid thin;
+  thin.origin_ = origin_;
+  thin.cells_per_unit_ = cells_per_unit_;
+  thin.dims_ = dims_;
+  thin.starts_.assign(starts_.size(), 0);
+  const auto along = static_cast<std::size_t>(parts);
+  std::vector<Part> inside(along * along * along);
+  const auto part_of = [&](const Vec3f& p) {
+    std::size_t part = 0;
+    for (int axis = 2; axis >= 0; --axis) {
+      const double place = p[axis] * cells_per_unit_;
+      const auto at = static_cast<std::size_t>((place - std::floor(place)) * parts);
+      part = part * along + std::min(at, along - 1);
+    }
+    return part;
+  };
+  for (std::size_t cell = 0; cell + 1 < starts_.size(); ++cell) {
+    for (std::size_t i = starts_[cell]; i < starts_[cell + 1]; ++i) {
+      Part& part = inside[part_of(positions_[i])];
+      part.sum += Vec3(positions_[i]);
+      ++part.count;
+    }
+    for (Part& part : inside) {
+      if (part.count == 0) continue;
+      thin.positions_.emplace_back(part.sum / static_cast<double>(part.count));
+      thin.counts_.push_back(part.count);
+      part = {};
+    }
+    thin.starts_[cell + 1] = static_cast<std::uint32_t>(thin.positions_.size());
+  }
+  return thin;
+}
+
 }  // namespace rangezip

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "core/base/progress.h"
+#include "core/finish/fit_window.h"
 #include "core/finish/point_grid.h"
 #include "core/mesh/triangle_mesh.h"
 
@@ -10,20 +11,25 @@ namespace rangezip {
 
 struct SnapOptions {
   double pixel_size = 0.0;  ///< h, model units; positive
+  FitWindow fit;            ///< of the cloud: its noise, and the radius that noise demands
 };
 
 struct SnapReport {
-  std::size_t snapped_vertices = 0;
+  std::size_t snapped_vertices = 0;  ///< now on features
+  std::size_t split_edges = 0;       ///< at a feature that they crossed
   std::size_t collapsed_edges = 0;
   std::size_t flipped_edges = 0;
 };
 
-/// Restores sharp edges and corners that sampling rounded off: a vertex near which the cloud is no
-/// plane moves to where the planes of the clean regions around it meet, the minimum of their
-/// quadric [Kobbelt, Botsch, Schwanecke, Seidel 2001, 4]; then edges are turned to run along the
-/// feature, and the slivers that arise are removed. A vertex stays where it is unless the points of
-/// the cloud next to the new place lie on the planes that meet there: so rounded edges, curved
-/// places and noisy clouds are left alone. May leave self-intersections.
+/// Restores sharp edges and corners that sampling rounded off. A vertex near which the cloud is no
+/// smooth surface moves to where the surfaces of the clean regions around it meet, the minimum of
+/// their quadric [Kobbelt, Botsch, Schwanecke, Seidel 2001, 4], or, if that is farther than half an
+/// edge, onto the nearest of these surfaces. Edges that then still cross a feature are split there.
+/// Edges are turned to run along the feature, and the slivers that arise are removed. A vertex
+/// stays where it is unless the points of the cloud next to the new place lie on the surfaces that
+/// meet there: so rounded edges and places that cannot be told are left alone. The surfaces are
+/// quadratic (fit_surface()), so edges between curved faces are found as well. May leave
+/// self-intersections.
 /// Cost: linear; points and vertices are visited in parallel.
 /// @param cloud without points nothing happens
 /// @pre oriented, manifold (core/finish/clean_topology.h)

@@ -226,8 +226,8 @@ void describe(Fields& f, FillMeshHoles& command) {
 template <class Fields>
 void describe(Fields& f, FinishMesh& command) {
   auto& [options] = command;
-  auto& [method, pixel_size, max_hole_perimeter, narrow_width, rounds, relaxations, snap_features,
-         min_component] = options;
+  auto& [method, pixel_size, max_hole_perimeter, narrow_width, rounds, relaxations, triangles,
+         snap_features, min_component] = options;
   f.choice("method", method,
            std::array{Choice<FinishMethod>{"fast", FinishMethod::fast},
                       Choice<FinishMethod>{"full", FinishMethod::full}},
@@ -240,6 +240,8 @@ void describe(Fields& f, FinishMesh& command) {
            "pixel sizes; loops whose sides face each other within this are always closed");
   f.integer("rounds", rounds, kCount, "of removing self-intersections and closing, at most");
   f.integer("relaxations", relaxations, kCount, "rounds of improving the triangles");
+  f.integer("triangles", triangles, kCount,
+            "how many there are to be, met within a few percent; 0: as many as come");
   f.boolean("snap_features", snap_features, "moves vertices onto sharp edges and corners");
   f.integer("min_component", min_component, kCount, "triangles; smaller pieces are dropped");
 }

@@ -118,7 +118,8 @@ class Run {
       samples_.insert(samples_.end(), on_polygons.begin(), on_polygons.end());
     }
     const Resolution resolution =
-        choose_resolution(scene_, samples_, options_.pixel_size, options_.triangles);
+        choose_resolution(scene_, samples_, options_.pixel_size, options_.triangles,
+                          options_.finish == FinishMethod::full);
     recipe_ = {.method = options_.method,
                .bounds = resolution.bounds,
                .pixel_size = resolution.pixel_size,
@@ -170,6 +171,7 @@ class Run {
       FinishMesh command;
       command.options.method = *options_.finish;
       command.options.pixel_size = recipe_.pixel_size;
+      command.options.triangles = options_.triangles.value_or(0);
       apply(command, part_of(progress_, "finish", kFinishShare, kCheckShare));
     }
     clock_.finish("finish");

@@ -23,7 +23,8 @@ enum class ReconstructMethod {
 struct ReconstructOptions {
   ReconstructMethod method = ReconstructMethod::automatic;
   std::optional<double> pixel_size;      ///< model units; absent: from the point spacing
-  std::optional<std::size_t> triangles;  ///< target count; sets the pixel size, met approximately
+  std::optional<std::size_t> triangles;  ///< target count, met within a few percent by the full
+                                         ///< finish; without it only roughly
   std::optional<int> views;              ///< planned views; absent: until the cloud is covered
   std::optional<FinishMethod> finish = FinishMethod::full;  ///< absent: no finish
   int threads = 0;  ///< 0: all of the machine; the mesh never depends on it

@@ -16,6 +16,8 @@ constexpr std::size_t kTrianglesOfPolygons = 100'000;
 /// A pixel becomes two triangles of half its area each, stretched by the tilt of the surface to
 /// the view that won it (measured on the models of the benchmarks: 1.1 on average).
 constexpr double kTrianglesPerPixelArea = 2.0 / 1.1;
+/// Of pixels than the edges of a mesh with fewer triangles: scans of four times as many.
+constexpr double kFinerThanMesh = 2.0;
 constexpr int kImageMargin = 16;  ///< pixels that framing and rounding may add
 
 double pixel_size_for(double area, std::size_t triangles) {
@@ -38,8 +40,8 @@ double finest_pixel_size(const Box& bounds) {
 }  // namespace
 
 Resolution choose_resolution(const Scene& scene, std::span<const Vec3> samples,
-                             std::optional<double> pixel_size,
-                             std::optional<std::size_t> triangles) {
+                             std::optional<double> pixel_size, std::optional<std::size_t> triangles,
+                             bool is_remeshed) {
   if (pixel_size && (!(*pixel_size > 0.0) || !std::isfinite(*pixel_size))) {
     throw InvalidArgument("reconstruct: pixel_size must be positive and finite, got " +
                           std::to_string(*pixel_size));
@@ -55,15 +57,17 @@ Resolution choose_resolution(const Scene& scene, std::span<const Vec3> samples,
 
   if (pixel_size) {
     chosen.pixel_size = *pixel_size;
-  } else if (triangles) {
+  } else {
     const double area =
         has_points ? static_cast<double>(samples.size()) * spacing->median * spacing->median
                    : triangle_area(scene);
-    chosen.pixel_size = pixel_size_for(area, *triangles);
-  } else if (has_points) {
-    chosen.pixel_size = pixel_size_from_spacing(*spacing);
-  } else {
-    chosen.pixel_size = pixel_size_for(triangle_area(scene), kTrianglesOfPolygons);
+    chosen.pixel_size =
+        has_points ? pixel_size_from_spacing(*spacing) : pixel_size_for(area, kTrianglesOfPolygons);
+    if (triangles) {
+      const double demanded = pixel_size_for(area, *triangles);
+      const double finest = is_remeshed ? demanded / kFinerThanMesh : demanded;
+      chosen.pixel_size = std::min(demanded, std::max(chosen.pixel_size, finest));
+    }
   }
   if (!pixel_size)
     chosen.pixel_size = std::max(chosen.pixel_size, finest_pixel_size(chosen.bounds));

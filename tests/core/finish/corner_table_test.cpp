@@ -61,7 +61,15 @@ TEST_CASE("random flips, collapses and splits keep the surface manifold and its 
         if (table.is_collapse_ok(c)) table.collapse(c), ++collapses;
         break;
       default:
-        if (engine() % 2 == 0) table.split(c / 3);
+        if (engine() % 2 == 0) {
+          table.split(c / 3);
+        } else if (table.names_inner_edge(c)) {
+          const std::uint32_t a = table.vertex(c), b = table.head(c);
+          const std::uint32_t middle = table.split_edge(c);
+          REQUIRE(table.are_neighbors(middle, a));
+          REQUIRE(table.are_neighbors(middle, b));
+          REQUIRE_FALSE(table.are_neighbors(a, b));
+        }
     }
     if (i % 100 == 0) require_consistent(table);
   }

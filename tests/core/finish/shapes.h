@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <vector>
 
 #include "core/mesh/triangle_mesh.h"
 
@@ -92,6 +93,32 @@ inline double smallest_angle(const TriangleMesh& mesh) {
     }
   }
   return smallest;
+}
+
+/// A direction, uniform over the sphere.
+inline Vec3 direction(std::mt19937_64& engine) {
+  for (;;) {
+    const Vec3 p(uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1));
+    const double length = glm::length(p);
+    if (length > 0.1 && length < 1.0) return p / length;
+  }
+}
+
+/// A standard normal deviate, by the sum of twelve uniform ones.
+inline double gaussian(std::mt19937_64& engine) {
+  double sum = -6.0;
+  for (int i = 0; i < 12; ++i)
+    sum += uniform(engine, 0.0, 1.0);
+  return sum;
+}
+
+/// Points of the unit sphere, `spacing` apart on average, moved by Gaussian noise.
+inline std::vector<Vec3> sphere_points(double spacing, double noise, std::mt19937_64& engine) {
+  constexpr double kArea = 12.566370614359172;
+  std::vector<Vec3> points(static_cast<std::size_t>(kArea / (spacing * spacing)));
+  for (Vec3& p : points)
+    p = direction(engine) + noise * Vec3(gaussian(engine), gaussian(engine), gaussian(engine));
+  return points;
 }
 
 }  // namespace rangezip::testing

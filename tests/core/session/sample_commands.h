@@ -69,6 +69,7 @@ inline std::vector<Command> full_commands(shapes::Random& random) {
   finish.options.narrow_width = share();
   finish.options.rounds = count() + 10;
   finish.options.relaxations = count() + 10;
+  finish.options.triangles = static_cast<std::size_t>(count());
   finish.options.snap_features = false;
   finish.options.min_component = static_cast<std::size_t>(count());
 

@@ -1,0 +1,148 @@
+#include "core/finish/edge_flips.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "core/finish/triangle_shape.h"
+
+namespace rangezip {
+namespace {
+
+// Angles as cosines, smallest angles as sines.
+constexpr double kGain = 0.05;           // smaller gains would flip to and fro
+constexpr double kMinCosine = 0.5;       // between and against the old faces
+constexpr double kMaxSharper = 0.1;      // an edge may not get much sharper
+constexpr double kSmallAngle = 0.35;     // 20 degrees
+constexpr double kAlignedAngle = 0.515;  // 31 degrees
+constexpr double kAlignedGain = 0.85;    // of the deviation: smaller gains are not worth the angles
+constexpr double kAlignedCosine = 0.8;
+constexpr int kRegularValence = 6;
+
+/// An inner edge a - b with the opposite corners x (left of it) and y.
+struct Diamond {
+  std::uint32_t a, b, x, y;
+
+  Diamond(const CornerTable& table, std::uint32_t c)
+      : a(table.vertex(c)), b(table.head(c)), x(table.apex(c)), y(table.apex(table.across(c))) {}
+};
+
+double angle_before(const std::vector<Vec3>& p, const Diamond& d) {
+  return std::min(sine_of_smallest_angle(p[d.a], p[d.b], p[d.x]),
+                  sine_of_smallest_angle(p[d.b], p[d.a], p[d.y]));
+}
+double angle_after(const std::vector<Vec3>& p, const Diamond& d) {
+  return std::min(sine_of_smallest_angle(p[d.a], p[d.y], p[d.x]),
+                  sine_of_smallest_angle(p[d.b], p[d.x], p[d.y]));
+}
+
+/// Whether the faces after the flip look where those before it did.
+bool keeps_sides(const std::vector<Vec3>& p, const Diamond& d) {
+  const Vec3 old_x = glm::normalize(area_vector(p[d.a], p[d.b], p[d.x]));
+  const Vec3 old_y = glm::normalize(area_vector(p[d.b], p[d.a], p[d.y]));
+  const Vec3 new_a = glm::normalize(area_vector(p[d.a], p[d.y], p[d.x]));
+  const Vec3 new_b = glm::normalize(area_vector(p[d.b], p[d.x], p[d.y]));
+  // A face without area has no direction; comparisons with it are false.
+  const double sharpness = glm::dot(new_a, new_b);
+  return sharpness >= kMinCosine && !(sharpness < glm::dot(old_x, old_y) - kMaxSharper) &&
+         !(glm::dot(new_a, old_y) < kMinCosine) && !(glm::dot(new_b, old_x) < kMinCosine);
+}
+
+/// Turns every inner edge for which is_better(diamond) holds.
+template <class IsBetter, class Turned>
+std::size_t flip_where(CornerTable& table, const IsBetter& is_better, const Turned& turned) {
+  std::size_t count = 0;
+  for (std::uint32_t c = 0; c < table.corner_count(); ++c) {
+    if (!table.names_inner_edge(c)) continue;
+    const Diamond d(table, c);
+    if (!is_better(d) || !table.is_flip_ok(c)) continue;
+    table.flip(c);
+    turned(d);
+    ++count;
+  }
+  return count;
+}
+
+/// Neighbours of every vertex; at the boundary as many more as are missing at a straight one.
+std::vector<int> valences_of(const CornerTable& table) {
+  std::vector<int> valences(table.vertex_count(), 0);
+  for (std::uint32_t v = 0; v < valences.size(); ++v) {
+    if (table.corner_of(v) == CornerTable::kNone) continue;
+    if (table.is_boundary(v)) valences[v] = 2;
+    table.for_each_neighbor(v, [&](std::uint32_t) { ++valences[v]; });
+  }
+  return valences;
+}
+
+/// How much a face's normal deviates from those of the surface at its corners, by area.
+double deviation(const std::vector<Vec3>& p, const std::vector<Vec3>& normals, std::uint32_t i,
+                 std::uint32_t j, std::uint32_t k) {
+  const Vec3 area = area_vector(p[i], p[j], p[k]);
+  const double length = glm::length(area);
+  if (!(length > 0.0)) return std::numeric_limits<double>::infinity();
+  const Vec3 normal = area / length;
+  double sum = 0.0;
+  for (const std::uint32_t v : {i, j, k}) {
+    const Vec3 off = normal - normals[v];
+    sum += glm::dot(off, off);
+  }
+  return sum * length;
+}
+
+}  // namespace
+
+std::size_t flip_for_angles(CornerTable& table, const std::vector<Vec3>& positions) {
+  const auto is_better = [&](const Diamond& d) {
+    return angle_after(positions, d) >= angle_before(positions, d) + kGain &&
+           keeps_sides(positions, d);
+  };
+  return flip_where(table, is_better, [](const Diamond&) {});
+}
+
+std::size_t flip_for_valence(CornerTable& table, const std::vector<Vec3>& positions) {
+  std::vector<int> valences = valences_of(table);
+  const auto off = [&](std::uint32_t v, int change) {
+    const int difference = valences[v] + change - kRegularValence;
+    return difference * difference;
+  };
+  const auto is_better = [&](const Diamond& d) {
+    const double before = angle_before(positions, d), after = angle_after(positions, d);
+    const bool mends = before < kSmallAngle && after >= before + kGain;
+    const bool is_more_regular = off(d.a, -1) + off(d.b, -1) + off(d.x, 1) + off(d.y, 1) <
+                                 off(d.a, 0) + off(d.b, 0) + off(d.x, 0) + off(d.y, 0);
+    if (!mends && !(is_more_regular && after >= std::min(before, kSmallAngle))) return false;
+    return keeps_sides(positions, d);
+  };
+  return flip_where(table, is_better, [&](const Diamond& d) {
+    --valences[d.a];
+    --valences[d.b];
+    ++valences[d.x];
+    ++valences[d.y];
+  });
+}
+
+std::size_t flip_for_normals(CornerTable& table, const std::vector<Vec3>& positions,
+                             const std::vector<Vec3>& normals) {
+  const auto has_normals = [&](const Diamond& d) {
+    const Vec3 zero{0.0};
+    return normals[d.a] != zero && normals[d.b] != zero && normals[d.x] != zero &&
+           normals[d.y] != zero;
+  };
+  const auto is_better = [&](const Diamond& d) {
+    if (!has_normals(d) || angle_after(positions, d) < kAlignedAngle) return false;
+    const Vec3 new_a = area_vector(positions[d.a], positions[d.y], positions[d.x]);
+    const Vec3 new_b = area_vector(positions[d.b], positions[d.x], positions[d.y]);
+    const Vec3 old_x = area_vector(positions[d.a], positions[d.b], positions[d.x]);
+    if (!has_cosine(new_a, new_b, kAlignedCosine) || !has_cosine(new_a, old_x, kAlignedCosine))
+      return false;
+    const double before =
+        deviation(positions, normals, d.a, d.b, d.x) + deviation(positions, normals, d.b, d.a, d.y);
+    const double after =
+        deviation(positions, normals, d.a, d.y, d.x) + deviation(positions, normals, d.b, d.x, d.y);
+    return after < kAlignedGain * before;
+  };
+  return flip_where(table, is_better, [](const Diamond&) {});
+}
+
+}  // namespace rangezip

@@ -1,0 +1,94 @@
+#include "core/finish/edge_lengths.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "core/finish/vertex_geometry.h"
+
+namespace rangezip {
+namespace {
+
+constexpr double kLargestRatio = 1.6;   // to the mean, both ways
+constexpr double kLeastBending = 0.02;  // radians over an edge
+constexpr int kSmoothings = 4;
+constexpr int kScalings = 4;
+
+/// x^(-1/3) of a positive number, by operations that are the same in every mathematical library.
+double inverse_cube_root(double x) {
+  int exponent = 0;
+  const double fraction = std::frexp(x, &exponent);  // [0.5, 1)
+  const int third = (exponent + (exponent > 0 ? 2 : 0)) / 3;
+  const double rest = std::ldexp(fraction, exponent - 3 * third);  // [1/8, 1)
+  double root = 1.0;
+  constexpr int kSteps = 8;
+  for (int i = 0; i < kSteps; ++i)  // Newton's, from below
+    root *= (4.0 - rest * root * root * root) / 3.0;
+  return std::ldexp(root, -third);
+}
+
+double frobenius(const Mat3& m) {
+  return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
+}
+
+/// Each value goes half-way to the mean of its neighbours'.
+void smooth(const CornerTable& table, std::vector<double>& values) {
+  std::vector<double> next = values;
+  for (std::uint32_t v = 0; v < values.size(); ++v) {
+    double sum = 0.0;
+    int count = 0;
+    table.for_each_neighbor(v, [&](std::uint32_t w) {
+      sum += values[w];
+      ++count;
+    });
+    if (count > 0) next[v] = 0.5 * (values[v] + sum / count);
+  }
+  values = std::move(next);
+}
+
+double bounded(double length) {
+  return std::clamp(length, 1.0 / kLargestRatio, kLargestRatio);
+}
+
+/// The unit in which the bounded lengths give as many triangles, of area as their squares, as
+/// length 1 everywhere.
+double unit_of(const CornerTable& table, const std::vector<Vec3>& positions,
+               const std::vector<double>& lengths) {
+  double unit = 1.0;
+  for (int i = 0; i < kScalings; ++i) {
+    double area = 0.0, triangles = 0.0;
+    for (std::uint32_t f = 0; f < table.face_count(); ++f) {
+      if (table.is_deleted(f)) continue;
+      const double size = glm::length(face_area_vector(table, positions, f));
+      area += size;
+      for (const std::uint32_t v : table.triangle(f)) {
+        const double length = bounded(lengths[v] / unit);
+        triangles += size / (3.0 * length * length);
+      }
+    }
+    if (!(area > 0.0)) return unit;
+    unit *= std::sqrt(area / triangles);
+  }
+  return unit;
+}
+
+}  // namespace
+
+std::vector<double> relative_edge_lengths(const CornerTable& table,
+                                          const std::vector<Vec3>& positions,
+                                          const std::vector<SurfaceFit>& fits, double length) {
+  std::vector<double> lengths(positions.size(), 0.0);
+  for (std::size_t v = 0; v < fits.size(); ++v) {
+    const double bending = fits[v].is_found ? frobenius(fits[v].bending) * length : 0.0;
+    lengths[v] = inverse_cube_root(std::max(bending, kLeastBending));
+  }
+  for (int i = 0; i < kSmoothings; ++i)
+    smooth(table, lengths);
+  const double unit = unit_of(table, positions, lengths);
+  for (double& value : lengths)
+    value = bounded(value / unit);
+  return lengths;
+}
+
+}  // namespace rangezip

@@ -1,0 +1,130 @@
+#include "core/finish/fit_vertices.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/base/parallel.h"
+#include "core/finish/corner_table.h"
+#include "core/finish/triangle_shape.h"
+#include "core/finish/vertex_geometry.h"
+
+namespace rangezip {
+namespace {
+
+constexpr double kMinCosine = 0.6;  // between the fitted surface and the mesh
+constexpr int kSteps = 3;           // of solving; more bring no change that can be measured
+constexpr std::size_t kPerBlock = 512;
+
+/// A quadrature of the second degree: barycentric coordinates of equal weight.
+constexpr double kNear = 2.0 / 3.0, kFar = 1.0 / 6.0;
+constexpr std::array<std::array<double, 3>, 3> kSamples{
+    {{kNear, kFar, kFar}, {kFar, kNear, kFar}, {kFar, kFar, kNear}}};
+
+/// One value a corner.
+using CornerValues = std::array<double, 3>;
+
+class Fitter {
+ public:
+  Fitter(TriangleMesh& mesh, const PointGrid& surface, const SurfaceWindow& window)
+      : mesh_(mesh),
+        surface_(surface),
+        window_(window),
+        table_(mesh.triangles, mesh.positions.size()),
+        normals_(mesh.positions.size()) {
+    for (std::uint32_t v = 0; v < normals_.size(); ++v)
+      normals_[v] = vertex_normal(table_, mesh.positions, v);
+  }
+
+  void run() {
+    const std::vector<CornerValues> gaps = integrate_gaps();
+    std::vector<double> right(normals_.size(), 0.0), lumped(normals_.size(), 0.0);
+    for (std::size_t f = 0; f < gaps.size(); ++f) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        right[mesh_.triangles[f][k]] += gaps[f][k];
+        lumped[mesh_.triangles[f][k]] += area_of(f) / 3.0;
+      }
+    }
+    std::vector<double> shift(normals_.size(), 0.0);
+    for (int step = 0; step < kSteps; ++step) {
+      const std::vector<double> product = mass_times(shift);
+      for (std::size_t v = 0; v < shift.size(); ++v) {
+        if (lumped[v] > 0.0) shift[v] += (right[v] - product[v]) / lumped[v];
+      }
+    }
+    move(shift);
+  }
+
+ private:
+  [[nodiscard]] double area_of(std::size_t face) const {
+    return 0.5 *
+           glm::length(face_area_vector(table_, mesh_.positions, static_cast<std::uint32_t>(face)));
+  }
+
+  /// For each face the integral of (height of the surface over it) times each corner's hat
+  /// function.
+  [[nodiscard]] std::vector<CornerValues> integrate_gaps() const {
+    std::vector<CornerValues> gaps(mesh_.triangles.size());
+    parallel_for(gaps.size(), kPerBlock, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t f = begin; f < end; ++f)
+        gaps[f] = gap_integrals(f);
+    });
+    return gaps;
+  }
+
+  [[nodiscard]] CornerValues gap_integrals(std::size_t face) const {
+    CornerValues sums{};
+    const Triangle& t = mesh_.triangles[face];
+    for (const auto& w : kSamples) {
+      Vec3 place{0.0}, normal{0.0};
+      for (std::size_t k = 0; k < 3; ++k) {
+        place += w[k] * mesh_.positions[t[k]];
+        normal += w[k] * normals_[t[k]];
+      }
+      normal = unit_or_z(normal);
+      const SurfaceFit fit = fit_surface(surface_, place, normal, window_);
+      if (!fit.is_found || glm::dot(fit.normal, normal) < kMinCosine) continue;
+      for (std::size_t k = 0; k < 3; ++k)
+        sums[k] += area_of(face) / 3.0 * w[k] * fit.height;
+    }
+    return sums;
+  }
+
+  [[nodiscard]] std::vector<double> mass_times(const std::vector<double>& values) const {
+    constexpr double kOffDiagonal = 1.0 / 12.0;  // of the area; the diagonal has twice as much
+    std::vector<double> product(values.size(), 0.0);
+    for (std::size_t f = 0; f < mesh_.triangles.size(); ++f) {
+      const Triangle& t = mesh_.triangles[f];
+      const double sum = values[t[0]] + values[t[1]] + values[t[2]];
+      for (const std::uint32_t v : t)
+        product[v] += kOffDiagonal * area_of(f) * (sum + values[v]);
+    }
+    return product;
+  }
+
+  void move(const std::vector<double>& shift) {
+    for (std::uint32_t v = 0; v < shift.size(); ++v) {
+      if (table_.is_boundary(v)) continue;
+      const Vec3 target = mesh_.positions[v] + shift[v] * normals_[v];
+      if (turns_no_face(table_, mesh_.positions, v, target)) mesh_.positions[v] = target;
+    }
+  }
+
+  TriangleMesh& mesh_;
+  const PointGrid& surface_;
+  SurfaceWindow window_;
+  CornerTable table_;
+  std::vector<Vec3> normals_;
+};
+
+}  // namespace
+
+void fit_vertices(TriangleMesh& mesh, const PointGrid& surface, const SurfaceWindow& window,
+                  const Progress& progress) {
+  if (surface.empty()) return;
+  progress.check_stop();
+  Fitter(mesh, surface, window).run();
+}
+
+}  // namespace rangezip

@@ -1,0 +1,245 @@
+#include "core/finish/remesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/base/parallel.h"
+#include "core/finish/corner_table.h"
+#include "core/finish/edge_flips.h"
+#include "core/finish/edge_lengths.h"
+#include "core/finish/spikes.h"
+#include "core/finish/triangle_shape.h"
+#include "core/finish/vertex_geometry.h"
+
+namespace rangezip {
+namespace {
+
+// Lengths are in the wanted edge length, angles as cosines, and smallest angles as sines.
+constexpr double kLongEdge = 4.0 / 3.0;
+constexpr double kShortEdge = 4.0 / 5.0;
+constexpr double kLongestEdge = 1.8;   // that may arise where a small angle goes
+constexpr double kCollapseTurn = 0.7;  // 45 degrees: a collapse may tilt a face so much
+constexpr double kMinAngleAfterCollapse = 0.15;
+constexpr double kSmallAngle = 0.5;  // 30 degrees
+constexpr double kRelaxStep = 0.7;
+constexpr double kFitMinCosine = 0.6;              // between the fitted surface and the mesh
+constexpr double kMostScaling = 1.1;               // of the wanted length, in a round
+constexpr double kEvenLength = 0.99;               // of the edge of as many equilateral triangles
+constexpr std::array kProjections{1.5, 1.5, 1.0};  // before the first round, with windows of
+                                                   // so many radii: the stitched mesh is rough
+constexpr int kClosingRounds = 2;
+constexpr int kSizingRounds = 4;  // later ones keep the relative lengths
+constexpr std::size_t kPerBlock = 512;
+
+class Remesher {
+ public:
+  Remesher(TriangleMesh& mesh, const PointGrid& cloud, const PointGrid& surface,
+           const RemeshOptions& options)
+      : positions_(mesh.positions),
+        cloud_(cloud),
+        surface_(surface),
+        options_(options),
+        table_(mesh.triangles, mesh.positions.size()),
+        faces_(mesh.triangles.size()),
+        wanted_faces_(options.triangles > 0 ? options.triangles : faces_),
+        lengths_(mesh.positions.size(), 1.0),
+        fits_(mesh.positions.size()) {
+    double area = 0.0;
+    for (std::uint32_t f = 0; f < table_.face_count(); ++f)
+      area += 0.5 * glm::length(face_area_vector(table_, positions_, f));
+    scale_ =
+        kEvenLength * std::sqrt(area / static_cast<double>(wanted_faces_) * 4.0 / std::sqrt(3.0));
+  }
+
+  void run(RemeshReport& report, const Progress& progress) {
+    const double radius = options_.window.radius;
+    for (const double share : kProjections) {
+      options_.window.radius = share * radius;
+      move_vertices(0.0);
+    }
+    for (int round = 0; round < options_.rounds; ++round) {
+      progress.check_stop();
+      if (round + kClosingRounds < options_.rounds) {
+        if (round < kSizingRounds)
+          lengths_ = relative_edge_lengths(table_, positions_, fits_, scale_);
+        report.split_edges += split_long_edges();
+        report.collapsed_edges += collapse_short_edges();
+        report.flipped_edges += flip_for_valence(table_, positions_);
+        adjust_scale();
+      } else {
+        report.flipped_edges += flip_for_angles(table_, positions_);
+      }
+      report.flattened_spikes += flatten_spikes(positions_, table_, cloud_, options_.pixel_size);
+      move_vertices(kRelaxStep);
+    }
+    report.flipped_edges += flip_for_angles(table_, positions_);
+    report.collapsed_edges += collapse_small_angles();
+    report.flipped_edges += flip_for_normals(table_, positions_, surface_normals());
+  }
+  [[nodiscard]] std::vector<Triangle> triangles() const { return table_.triangles(); }
+
+ private:
+  [[nodiscard]] const Vec3& at(std::uint32_t vertex) const { return positions_[vertex]; }
+  [[nodiscard]] double relative_length(std::uint32_t a, std::uint32_t b) const {
+    return glm::length(at(b) - at(a)) / (0.5 * scale_ * (lengths_[a] + lengths_[b]));
+  }
+
+  /// Edges that may neither be split nor be collapsed yet keep the number of triangles from what
+  /// their length promises.
+  void adjust_scale() {
+    const double ratio =
+        std::sqrt(static_cast<double>(faces_) / static_cast<double>(wanted_faces_));
+    scale_ *= std::clamp(ratio, 1.0 / kMostScaling, kMostScaling);
+  }
+
+  std::size_t split_long_edges() {
+    std::size_t count = 0;
+    const auto corners = static_cast<std::uint32_t>(table_.corner_count());
+    for (std::uint32_t c = 0; c < corners; ++c) {
+      if (!table_.names_inner_edge(c)) continue;
+      const std::uint32_t a = table_.vertex(c), b = table_.head(c);
+      if (relative_length(a, b) <= kLongEdge) continue;
+      table_.split_edge(c);
+      positions_.push_back(0.5 * (at(a) + at(b)));
+      lengths_.push_back(0.5 * (lengths_[a] + lengths_[b]));
+      fits_.emplace_back(fits_[a]);
+      faces_ += 2;
+      ++count;
+    }
+    return count;
+  }
+
+  std::size_t collapse_short_edges() {
+    std::size_t count = 0;
+    for (std::uint32_t c = 0; c < table_.corner_count(); ++c) {
+      if (!table_.names_inner_edge(c)) continue;
+      if (relative_length(table_.vertex(c), table_.head(c)) > kShortEdge) continue;
+      count += collapse_edge(c, kMinAngleAfterCollapse, kLongEdge) ? 1 : 0;
+    }
+    return count;
+  }
+
+  /// Removes the shortest edge of faces with a small angle where that leaves none.
+  std::size_t collapse_small_angles() {
+    std::size_t count = 0;
+    for (std::uint32_t f = 0; f < table_.face_count(); ++f) {
+      if (table_.is_deleted(f)) continue;
+      const Triangle t = table_.triangle(f);
+      if (sine_of_smallest_angle(at(t[0]), at(t[1]), at(t[2])) >= kSmallAngle) continue;
+      std::uint32_t shortest = 3 * f;
+      for (const std::uint32_t c : {3 * f + 1, 3 * f + 2}) {
+        if (length_of(c) < length_of(shortest)) shortest = c;
+      }
+      if (table_.across(shortest) == CornerTable::kNone) continue;
+      count += collapse_edge(shortest, kSmallAngle, kLongestEdge) ? 1 : 0;
+    }
+    return count;
+  }
+  [[nodiscard]] double length_of(std::uint32_t corner) const {
+    return glm::length(at(table_.head(corner)) - at(table_.vertex(corner)));
+  }
+
+  /// In either direction; false where neither can be.
+  bool collapse_edge(std::uint32_t corner, double min_angle, double longest) {
+    for (const std::uint32_t side : {corner, table_.across(corner)}) {
+      if (!table_.is_collapse_ok(side) || !keeps_shape(side, min_angle, longest)) continue;
+      table_.collapse(side);
+      faces_ -= 2;
+      return true;
+    }
+    return false;
+  }
+
+  /// Moving the half-edge's vertex into its head neither turns a face nor makes a small angle or
+  /// a long edge.
+  [[nodiscard]] bool keeps_shape(std::uint32_t corner, double min_angle, double longest) const {
+    const std::uint32_t target = table_.head(corner);
+    bool ok = true;
+    table_.for_each_corner(table_.vertex(corner), [&](std::uint32_t c) {
+      const std::uint32_t p = table_.head(c), q = table_.apex(c);
+      if (!ok || p == target || q == target) return;
+      const Vec3 before = area_vector(at(table_.vertex(c)), at(p), at(q));
+      const Vec3 after = area_vector(at(target), at(p), at(q));
+      ok = has_cosine(before, after, kCollapseTurn) &&
+           sine_of_smallest_angle(at(target), at(p), at(q)) >= min_angle &&
+           relative_length(target, p) <= longest && relative_length(target, q) <= longest;
+    });
+    return ok;
+  }
+
+  void move_vertices(double step) {
+    std::vector<Vec3> moved(positions_.size());
+    parallel_for(positions_.size(), kPerBlock, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v)
+        moved[v] = place_for(static_cast<std::uint32_t>(v), step);
+    });
+    for (std::uint32_t v = 0; v < positions_.size(); ++v) {
+      if (moved[v] != at(v) && turns_no_face(table_, positions_, v, moved[v]))
+        positions_[v] = moved[v];
+    }
+  }
+
+  /// Towards the middle of the faces around, then onto the surface of the cloud.
+  [[nodiscard]] Vec3 place_for(std::uint32_t v, double step) {
+    const Vec3& p = at(v);
+    if (table_.is_boundary(v)) return p;
+    Vec3 sum{0.0};
+    double weight = 0.0;
+    table_.for_each_corner(v, [&](std::uint32_t c) {
+      const Triangle t = table_.triangle(c / 3);
+      const double length = lengths_[t[0]] + lengths_[t[1]] + lengths_[t[2]];
+      const double w = glm::length(face_area_vector(table_, positions_, c / 3)) / (length * length);
+      sum += w / 3.0 * (at(t[0]) + at(t[1]) + at(t[2]));
+      weight += w;
+    });
+    if (!(weight > 0.0)) return p;
+    const Vec3 normal = vertex_normal(table_, positions_, v);
+    const Vec3 shift = sum / weight - p;
+    return projected(v, p + step * (shift - glm::dot(shift, normal) * normal), normal);
+  }
+
+  [[nodiscard]] Vec3 projected(std::uint32_t v, const Vec3& p, const Vec3& normal) {
+    SurfaceFit& fit = fits_[v];
+    fit = fit_surface(surface_, p, normal, options_.window);
+    if (fit.is_found && glm::dot(fit.normal, normal) < kFitMinCosine) fit.is_found = false;
+    return fit.is_found ? p + fit.height * normal : p;
+  }
+
+  [[nodiscard]] std::vector<Vec3> surface_normals() const {
+    std::vector<Vec3> normals(fits_.size(), Vec3{0.0});
+    for (std::size_t v = 0; v < fits_.size(); ++v) {
+      if (fits_[v].is_found) normals[v] = fits_[v].normal;
+    }
+    return normals;
+  }
+
+  std::vector<Vec3>& positions_;
+  const PointGrid& cloud_;
+  const PointGrid& surface_;
+  RemeshOptions options_;
+  CornerTable table_;
+  std::size_t faces_;
+  std::size_t wanted_faces_;
+  double scale_ = 0.0;           ///< wanted edge length where the relative one is 1
+  std::vector<double> lengths_;  ///< relative, one a vertex
+  std::vector<SurfaceFit> fits_;
+};
+
+}  // namespace
+
+RemeshReport remesh(TriangleMesh& mesh, const PointGrid& cloud, const PointGrid& surface,
+                    const RemeshOptions& options, const Progress& progress) {
+  RemeshReport report;
+  if (mesh.triangles.empty()) return report;
+  Remesher remesher(mesh, cloud, surface, options);
+  remesher.run(report, progress);
+  mesh.triangles = remesher.triangles();
+  if (!mesh.sources.empty()) mesh.sources.resize(mesh.positions.size());
+  return report;
+}
+
+}  // namespace rangezip

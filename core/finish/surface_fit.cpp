@@ -1,0 +1,208 @@
+#include "core/finish/surface_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace rangezip {
+namespace {
+
+constexpr std::size_t kTerms = 6;  // 1, u, v, u u, u v, v v
+constexpr std::size_t kPlaneTerms = 3;
+constexpr int kMinQuadricPoints = 12;
+constexpr int kMinPlanePoints = 6;
+constexpr double kMinPivot = 1e-4;  // of the diagonal: below, the points do not tell the term
+
+using Terms = std::array<double, kTerms>;
+using TermMatrix = std::array<Terms, kTerms>;  ///< symmetric: the lower triangle counts
+
+/// Axes across a unit normal.
+struct Frame {
+  Vec3 u, v, normal;
+
+  explicit Frame(const Vec3& n) : normal(n) {
+    const Vec3 axis = std::abs(n.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
+    u = glm::normalize(glm::cross(axis, n));
+    v = glm::cross(n, u);
+  }
+};
+
+/// A point in the frame, with its weight; lengths in radii keep the equations balanced.
+struct Sample {
+  double u, v, z, weight;
+};
+
+Terms terms_at(const Sample& s) {
+  return {1.0, s.u, s.v, s.u * s.u, s.u * s.v, s.v * s.v};
+}
+
+void add_product(TermMatrix& matrix, const Terms& terms, double weight) {
+  for (std::size_t i = 0; i < kTerms; ++i) {
+    const double weighted = weight * terms[i];
+    for (std::size_t j = 0; j <= i; ++j)
+      matrix[i][j] += weighted * terms[j];
+  }
+}
+
+struct NormalEquations {
+  TermMatrix matrix{};
+  Terms right{};
+  int count = 0;
+
+  void add(const Sample& s) {
+    const Terms terms = terms_at(s);
+    add_product(matrix, terms, s.weight);
+    for (std::size_t i = 0; i < kTerms; ++i)
+      right[i] += s.weight * s.z * terms[i];
+    ++count;
+  }
+};
+
+/// What the scatter needs besides.
+struct ScatterSums {
+  TermMatrix squared{};  ///< of squared weights
+  double heights2 = 0.0;
+  double weight = 0.0;
+
+  void add(const Sample& s) {
+    add_product(squared, terms_at(s), s.weight * s.weight);
+    heights2 += s.weight * s.z * s.z;
+    weight += s.weight;
+  }
+  [[nodiscard]] double at(std::size_t i, std::size_t j) const {
+    return i >= j ? squared[i][j] : squared[j][i];
+  }
+};
+
+/// Cholesky's decomposition of the first `size` terms, in place; false where a term cannot be told.
+bool decompose(TermMatrix& a, std::size_t size) {
+  for (std::size_t i = 0; i < size; ++i) {
+    const double diagonal = a[i][i];
+    for (std::size_t j = 0; j <= i; ++j) {
+      double sum = a[i][j];
+      for (std::size_t k = 0; k < j; ++k)
+        sum -= a[i][k] * a[j][k];
+      if (i != j) {
+        a[i][j] = sum / a[j][j];
+      } else {
+        if (!(sum > kMinPivot * diagonal)) return false;
+        a[i][i] = std::sqrt(sum);
+      }
+    }
+  }
+  return true;
+}
+
+Terms solve(const TermMatrix& factor, Terms b, std::size_t size) {
+  for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t k = 0; k < i; ++k)
+      b[i] -= factor[i][k] * b[k];
+    b[i] /= factor[i][i];
+  }
+  for (std::size_t i = size; i-- > 0;) {
+    for (std::size_t k = i + 1; k < size; ++k)
+      b[i] -= factor[k][i] * b[k];
+    b[i] /= factor[i][i];
+  }
+  return b;
+}
+
+/// A solved system; `size` 0 if the points tell no surface.
+struct Solution {
+  std::size_t size = 0;
+  TermMatrix factor{};
+  Terms terms{};  ///< those past `size` are 0
+};
+
+Solution solve(const NormalEquations& equations) {
+  for (const std::size_t size : {kTerms, kPlaneTerms}) {
+    if (equations.count < (size == kTerms ? kMinQuadricPoints : kMinPlanePoints)) continue;
+    Solution solution{size, equations.matrix, {}};
+    if (!decompose(solution.factor, size)) continue;
+    Terms right{};
+    std::copy_n(equations.right.begin(), size, right.begin());
+    solution.terms = solve(solution.factor, right, size);
+    return solution;
+  }
+  return {};
+}
+
+SurfaceFit fit_from(const Solution& solution, int count, const Frame& frame, double radius) {
+  SurfaceFit fit;
+  if (solution.size == 0) return fit;
+  fit.is_found = true;
+  fit.count = count;
+  const Terms& t = solution.terms;
+  fit.height = t[0] * radius;
+  const Vec3 steep = frame.normal - t[1] * frame.u - t[2] * frame.v;
+  const double length = glm::length(steep);
+  fit.normal = steep / length;
+  const Mat3 mixed = glm::outerProduct(frame.u, frame.v) + glm::outerProduct(frame.v, frame.u);
+  fit.bending = (2.0 * t[3] * glm::outerProduct(frame.u, frame.u) + t[4] * mixed +
+                 2.0 * t[5] * glm::outerProduct(frame.v, frame.v)) /
+                (radius * length);
+  return fit;
+}
+
+SurfaceScatter scatter_from(const Solution& solution, const NormalEquations& equations,
+                            const ScatterSums& sums, double radius) {
+  SurfaceScatter scatter;
+  if (solution.size == 0) return scatter;
+  // The height is the sum of w_i (row . terms_i) z_i, `row` the first row of the inverse.
+  const Terms row = solve(solution.factor, Terms{1.0}, solution.size);
+  double residual = sums.heights2;
+  // Of noise of variance 1 the residual is expected to be the trace of w (1 - hat matrix).
+  double freedom = sums.weight;
+  for (std::size_t i = 0; i < solution.size; ++i) {
+    residual -= solution.terms[i] * equations.right[i];
+    Terms unit{};
+    unit[i] = 1.0;
+    const Terms column = solve(solution.factor, unit, solution.size);
+    for (std::size_t j = 0; j < solution.size; ++j) {
+      scatter.share2 += row[i] * row[j] * sums.at(i, j);
+      freedom -= column[j] * sums.at(i, j);
+    }
+  }
+  if (freedom > 0.0) scatter.noise2 = std::max(0.0, residual) / freedom * radius * radius;
+  return scatter;
+}
+
+/// Calls visit(sample) for every point that counts.
+template <class Visit>
+void for_each_sample(const PointGrid& cloud, const Vec3& place, const Frame& frame,
+                     const SurfaceWindow& window, const Visit& visit) {
+  const double per_radius = 1.0 / window.radius;
+  cloud.for_each_counted_near(place, window.radius, [&](const Vec3& d, double count) {
+    const double z = glm::dot(d, frame.normal);
+    const double nearness = 1.0 - (glm::dot(d, d) - z * z) * per_radius * per_radius;
+    if (nearness <= 0.0 || std::abs(z) > window.height) return;
+    visit(Sample{glm::dot(d, frame.u) * per_radius, glm::dot(d, frame.v) * per_radius,
+                 z * per_radius, count * nearness * nearness * nearness});
+  });
+}
+
+}  // namespace
+
+SurfaceFit fit_surface(const PointGrid& cloud, const Vec3& place, const Vec3& normal,
+                       const SurfaceWindow& window) {
+  const Frame frame(normal);
+  NormalEquations equations;
+  for_each_sample(cloud, place, frame, window, [&](const Sample& s) { equations.add(s); });
+  return fit_from(solve(equations), equations.count, frame, window.radius);
+}
+
+MeasuredFit measure_surface(const PointGrid& cloud, const Vec3& place, const Vec3& normal,
+                            const SurfaceWindow& window) {
+  const Frame frame(normal);
+  NormalEquations equations;
+  ScatterSums sums;
+  for_each_sample(cloud, place, frame, window, [&](const Sample& s) {
+    equations.add(s);
+    sums.add(s);
+  });
+  const Solution solution = solve(equations);
+  return {fit_from(solution, equations.count, frame, window.radius),
+          scatter_from(solution, equations, sums, window.radius)};
+}
+
+}  // namespace rangezip

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+
+#include "core/base/geometry.h"
+#include "core/finish/point_grid.h"
+
+namespace rangezip {
+
+/// Which points around a place are taken for one sheet of the surface.
+struct SurfaceWindow {
+  double radius = 0.0;  ///< model units, positive
+  double height = 0.0;  ///< farther from the tangent plane, points belong to another sheet
+};
+
+/// The surface that a cloud shows next to a place, as a quadratic height over the tangent plane.
+struct SurfaceFit {
+  bool is_found = false;  ///< false: too few points, or they are no surface; nothing else counts
+  int count = 0;          ///< points with a weight; of a thinned cloud, its points
+  double height = 0.0;    ///< of the surface over the place, along the normal that was given
+  Vec3 normal{0.0};       ///< unit, of the surface there; on the side of the given one
+  Mat3 bending{0.0};      ///< e^T bending e: how the surface bends away along a tangent vector e,
+                          ///< to second order twice the height gained over e
+};
+
+/// Weighted least squares of a quadric z = z(u, v) over the plane through `place` across `normal`
+/// [Cazals, Pouget 2005]; weights fall to 0 at the radius. With few points a plane is fitted, with
+/// fewer than six nothing. Cost: the points within the radius.
+/// @pre normal is a unit vector
+[[nodiscard]] SurfaceFit fit_surface(const PointGrid& cloud, const Vec3& place, const Vec3& normal,
+                                     const SurfaceWindow& window);
+
+/// What noise does to a fit.
+struct SurfaceScatter {
+  double noise2 = 0.0;  ///< mean square distance of points from the surface, unbiased
+  double share2 = 0.0;  ///< sum of the squared shares of the points in the height: noise2 times
+                        ///< this is its variance
+};
+
+struct MeasuredFit {
+  SurfaceFit fit;
+  SurfaceScatter scatter;
+};
+
+/// The same with its scatter, for twice the cost. @pre the cloud is not thinned
+[[nodiscard]] MeasuredFit measure_surface(const PointGrid& cloud, const Vec3& place,
+                                          const Vec3& normal, const SurfaceWindow& window);
+
+}  // namespace rangezip

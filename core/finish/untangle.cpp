@@ -1,0 +1,72 @@
+#include "core/finish/untangle.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/finish/corner_table.h"
+#include "core/finish/self_intersection.h"
+
+namespace rangezip {
+namespace {
+
+constexpr int kRounds = 6;
+constexpr int kNarrowRounds = 2;  // without the neighbours
+constexpr int kSteps = 2;         // of smoothing, a round
+
+using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+/// Flags of the inner vertices of the faces that cross others, and of those around.
+std::vector<std::uint8_t> tangled_vertices(const CornerTable& table, const Pairs& pairs,
+                                           bool with_neighbors) {
+  std::vector<std::uint8_t> tangled(table.vertex_count(), 0);
+  const auto mark = [&](std::uint32_t face) {
+    for (const std::uint32_t v : table.triangle(face)) {
+      tangled[v] = 1;
+      if (with_neighbors) table.for_each_neighbor(v, [&](std::uint32_t w) { tangled[w] = 1; });
+    }
+  };
+  for (const auto& [i, j] : pairs) {
+    mark(i);
+    mark(j);
+  }
+  for (std::uint32_t v = 0; v < tangled.size(); ++v) {
+    if (table.is_boundary(v)) tangled[v] = 0;
+  }
+  return tangled;
+}
+
+/// Every flagged vertex to the middle of its neighbours, all at once.
+void smooth(std::vector<Vec3>& positions, const CornerTable& table,
+            const std::vector<std::uint8_t>& flags) {
+  std::vector<Vec3> moved = positions;
+  for (std::uint32_t v = 0; v < flags.size(); ++v) {
+    if (flags[v] == 0) continue;
+    Vec3 sum{0.0};
+    int count = 0;
+    table.for_each_neighbor(v, [&](std::uint32_t w) {
+      sum += positions[w];
+      ++count;
+    });
+    moved[v] = sum / static_cast<double>(count);
+  }
+  positions = std::move(moved);
+}
+
+}  // namespace
+
+std::size_t untangle(TriangleMesh& mesh) {
+  const CornerTable table(mesh.triangles, mesh.positions.size());
+  Pairs pairs = self_intersections(mesh);
+  const std::size_t before = pairs.size();
+  for (int round = 0; round < kRounds && !pairs.empty(); ++round) {
+    const std::vector<std::uint8_t> tangled =
+        tangled_vertices(table, pairs, round >= kNarrowRounds);
+    for (int step = 0; step < kSteps; ++step)
+      smooth(mesh.positions, table, tangled);
+    pairs = self_intersections(mesh);
+  }
+  return before;
+}
+
+}  // namespace rangezip

@@ -1,0 +1,65 @@
+#include "core/finish/point_grid.h"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "tests/core/finish/shapes.h"
+
+namespace rangezip {
+namespace {
+
+using testing::uniform;
+
+TEST_CASE("for_each_near visits exactly the points around, and more") {
+  std::mt19937_64 engine(6);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 2000; ++i) {
+    points.emplace_back(uniform(engine, 0, 1), uniform(engine, 0, 1), uniform(engine, 0, 1));
+  }
+  points.emplace_back(50.0, 0.0, 0.0);  // outside of the region
+  const Box region{Vec3(-0.2), Vec3(1.2)};
+  const double cell = GENERATE(0.02, 0.07, 0.5, 3.0);
+  CAPTURE(cell);
+  const PointGrid grid(points, region, cell);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 place(uniform(engine, -0.5, 1.5), uniform(engine, -0.5, 1.5),
+                     uniform(engine, -0.5, 1.5));
+    constexpr double kRadius = 0.11;
+    std::size_t expected = 0, found = 0;
+    for (const Vec3& p : points)
+      expected += glm::length(p - place) < kRadius ? 1 : 0;
+    grid.for_each_near(place, kRadius,
+                       [&](const Vec3& d) { found += glm::length(d) < kRadius ? 1 : 0; });
+    REQUIRE(found == expected);  // positions are floats: none of these lies that close to the limit
+  }
+}
+
+TEST_CASE("a thinned grid has as many points in all, with the same mean, and fewer places") {
+  std::mt19937_64 engine(7);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 5000; ++i) {
+    points.emplace_back(uniform(engine, 0, 1), uniform(engine, 0, 1), uniform(engine, 0, 1));
+  }
+  const PointGrid grid(points, {Vec3(-0.1), Vec3(1.1)}, 0.2);
+  const int parts = GENERATE(1, 2, 4);
+  CAPTURE(parts);
+  const PointGrid thin = grid.thinned(parts);
+  Vec3 sum{0.0}, expected{0.0};
+  for (const Vec3& p : points)
+    expected += p;
+  double count = 0.0;
+  std::size_t places = 0;
+  thin.for_each_counted_near(Vec3{0.0}, 10.0, [&](const Vec3& d, double n) {
+    sum += n * d;
+    count += n;
+    ++places;
+  });
+  REQUIRE(count == 5000.0);
+  REQUIRE(glm::length(sum - expected) < 1e-4 * glm::length(expected));  // positions are floats
+  const int cells = 6 * parts + parts;
+  REQUIRE(places <= static_cast<std::size_t>(cells * cells * cells));
+  REQUIRE(places < points.size());
+}
+
+}  // namespace
+}  // namespace rangezip

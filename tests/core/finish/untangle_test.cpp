@@ -1,0 +1,41 @@
+#include "core/finish/untangle.h"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "core/finish/self_intersection.h"
+#include "tests/core/finish/shapes.h"
+
+namespace rangezip {
+namespace {
+
+TEST_CASE("untangle opens folds and leaves the rest as it is") {
+  const std::uint64_t seed = GENERATE(1U, 2U, 3U);
+  CAPTURE(seed);
+  std::mt19937_64 engine(seed);
+  TriangleMesh mesh = testing::sphere(20);
+  const TriangleMesh round = mesh;
+  for (Vec3& p : mesh.positions) {  // one vertex in a hundred goes past its neighbours
+    if (engine() % 100 == 0) p = glm::normalize(p + 0.25 * testing::direction(engine));
+  }
+  const std::size_t crossing = self_intersections(mesh).size();
+  REQUIRE(crossing > 10);
+  const TriangleMesh before = mesh;
+  REQUIRE(untangle(mesh) == crossing);
+  REQUIRE(self_intersections(mesh).empty());
+  REQUIRE(mesh.triangles == before.triangles);
+  std::size_t same = 0;
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+    same += mesh.positions[v] == before.positions[v] ? 1 : 0;
+  REQUIRE(same > mesh.positions.size() / 2);
+}
+
+TEST_CASE("untangle does nothing where nothing crosses") {
+  TriangleMesh mesh = testing::sphere(8);
+  const TriangleMesh before = mesh;
+  REQUIRE(untangle(mesh) == 0);
+  REQUIRE(mesh == before);
+}
+
+}  // namespace
+}  // namespace rangezip
