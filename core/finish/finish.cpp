@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/finish/boundary_loops.h"
+#include "core/finish/clean_topology.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/extend_border.h"
 #include "core/finish/fit_vertices.h"
@@ -13,6 +14,7 @@
 #include "core/finish/point_grid.h"
 #include "core/finish/remesh.h"
 #include "core/finish/repair.h"
+#include "core/finish/self_intersection.h"
 #include "core/finish/snap_features.h"
 #include "core/finish/untangle.h"
 
@@ -42,8 +44,18 @@ Box region_of(const TriangleMesh& mesh, double margin) {
   return region;
 }
 
-/// Moves vertices onto features; what crosses something then is pulled apart, or cut out and closed
-/// again, and that place gets a second chance.
+/// After vertices of a clean mesh have moved: untangles faces that cross, and cuts out and closes
+/// again what still does. @return whether something was cut
+bool separate(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
+              FinishReport& report, const Progress& progress) {
+  const UntangleReport untangled = untangle(mesh);
+  report.untangled_pairs += untangled.crossed;
+  if (untangled.left.empty()) return false;
+  repair(mesh, untangled.left, cloud, options, report, progress);
+  return true;
+}
+
+/// Moves vertices onto features; where something had to be cut, once more.
 void snap(TriangleMesh& mesh, const PointGrid& cloud, const FitWindow& fit,
           const FinishOptions& options, FinishReport& report, const Progress& progress) {
   constexpr int kRounds = 2;
@@ -54,8 +66,7 @@ void snap(TriangleMesh& mesh, const PointGrid& cloud, const FitWindow& fit,
     report.collapsed_edges += snapped.collapsed_edges;
     report.flipped_edges += snapped.flipped_edges;
     if (snapped.snapped_vertices == 0) return;
-    report.untangled_pairs += untangle(mesh);
-    repair(mesh, cloud, options, report, progress);
+    if (!separate(mesh, cloud, options, report, progress)) return;
   }
 }
 
@@ -79,9 +90,9 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
   report.collapsed_edges = remeshed.collapsed_edges;
   report.flipped_edges = remeshed.flipped_edges;
   report.flattened_spikes = remeshed.flattened_spikes;
+  remove_unused_vertices(mesh);
   fit_vertices(mesh, surface, fit.window, progress);
-  report.untangled_pairs += untangle(mesh);
-  repair(mesh, cloud, options, report, progress);
+  separate(mesh, cloud, options, report, progress);
   if (options.snap_features) snap(mesh, cloud, fit, options, report, progress);
   const ExtendBorderReport extended = extend_border(
       mesh, cloud, {.pixel_size = h, .min_component = options.min_component}, progress);
@@ -100,8 +111,10 @@ FinishResult finish(TriangleMesh mesh, std::span<const Vec3> cloud, const Finish
   progress.at("finish", 0.0);
   const double h = options.pixel_size;
   const PointGrid points(cloud, region_of(mesh, kRegionMargin * h), kPointCell * h);
-  repair(mesh, points, options, result.report, progress);
+  clean_topology(mesh);
+  repair(mesh, self_intersections(mesh), points, options, result.report, progress);
   if (options.method == FinishMethod::full) improve(mesh, points, options, result.report, progress);
+  remove_unused_vertices(mesh);
   const CornerTable table(mesh.triangles, mesh.positions.size());
   result.report.open_loops = boundary_loops(table).size();
   result.mesh = std::move(mesh);

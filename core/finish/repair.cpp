@@ -110,10 +110,9 @@ void widen(TriangleMesh& mesh, const std::vector<std::uint8_t>& vertices) {
 
 }  // namespace
 
-void repair(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
-            FinishReport& report, const Progress& progress) {
-  clean(mesh, options, report);
-  cut_pairs(mesh, self_intersections(mesh), report);
+void repair(TriangleMesh& mesh, const Pairs& crossing, const PointGrid& cloud,
+            const FinishOptions& options, FinishReport& report, const Progress& progress) {
+  cut_pairs(mesh, crossing, report);
   // From here on nothing crosses: faces only go, and what comes is checked.
   for (int round = 0; round < options.rounds; ++round) {
     progress.check_stop();

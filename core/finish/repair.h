@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <utility>
+#include <vector>
+
 #include "core/base/progress.h"
 #include "core/finish/finish.h"
 #include "core/finish/point_grid.h"
@@ -11,8 +15,11 @@ namespace rangezip {
 /// or bridge that crosses anything is taken back and the hole widened by a ring of faces for the
 /// next round; after the last one it stays open. So the result is always oriented, manifold and
 /// free of self-intersections. Adds to the counts of `report`.
+/// @param crossing the pairs of faces that cross, self_intersections(mesh)
 /// @param cloud evidence for holes (core/finish/hole_choice.h); may be empty
-void repair(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
-            FinishReport& report, const Progress& progress);
+void repair(TriangleMesh& mesh,
+            const std::vector<std::pair<std::uint32_t, std::uint32_t>>& crossing,
+            const PointGrid& cloud, const FinishOptions& options, FinishReport& report,
+            const Progress& progress);
 
 }  // namespace rangezip

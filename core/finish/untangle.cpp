@@ -53,20 +53,36 @@ void smooth(std::vector<Vec3>& positions, const CornerTable& table,
   positions = std::move(moved);
 }
 
+/// Faces with a flagged vertex, and those that crossed.
+std::vector<std::uint32_t> changed_faces(const TriangleMesh& mesh,
+                                         const std::vector<std::uint8_t>& flags,
+                                         const Pairs& pairs) {
+  std::vector<std::uint32_t> changed;
+  for (const auto& [i, j] : pairs) {
+    changed.push_back(i);
+    changed.push_back(j);
+  }
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Triangle& t = mesh.triangles[f];
+    if (flags[t[0]] != 0 || flags[t[1]] != 0 || flags[t[2]] != 0) changed.push_back(f);
+  }
+  return changed;
+}
+
 }  // namespace
 
-std::size_t untangle(TriangleMesh& mesh) {
+UntangleReport untangle(TriangleMesh& mesh) {
   const CornerTable table(mesh.triangles, mesh.positions.size());
   Pairs pairs = self_intersections(mesh);
-  const std::size_t before = pairs.size();
+  const std::size_t crossed = pairs.size();
   for (int round = 0; round < kRounds && !pairs.empty(); ++round) {
     const std::vector<std::uint8_t> tangled =
         tangled_vertices(table, pairs, round >= kNarrowRounds);
     for (int step = 0; step < kSteps; ++step)
       smooth(mesh.positions, table, tangled);
-    pairs = self_intersections(mesh);
+    pairs = self_intersections(mesh, changed_faces(mesh, tangled, pairs));
   }
-  return before;
+  return {crossed, std::move(pairs)};
 }
 
 }  // namespace rangezip

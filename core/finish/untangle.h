@@ -1,18 +1,25 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "core/mesh/triangle_mesh.h"
 
 namespace rangezip {
+
+struct UntangleReport {
+  std::size_t crossed = 0;                                    ///< pairs of faces at first
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> left;  ///< pairs that still cross
+};
 
 /// Pulls faces apart that cross others by smoothing where they are: the inner vertices of crossing
 /// faces move to the middle of their neighbours, from the third round on with those around them.
 /// Most folds that moving vertices by themselves has made come apart so, without a hole to fill.
 /// Ends when nothing crosses, or after six rounds. The topology and the boundary stay. Cost:
 /// self_intersections() a round.
-/// @return pairs that crossed at first
 /// @pre oriented, manifold (core/finish/clean_topology.h)
-std::size_t untangle(TriangleMesh& mesh);
+UntangleReport untangle(TriangleMesh& mesh);
 
 }  // namespace rangezip
