@@ -18,7 +18,7 @@ struct FitWindow {
 /// Both are estimated without knowing the surface: the noise from the residuals of the narrowest
 /// fits, the error of a wider fit from how far it lies from the narrowest one, less what noise
 /// alone would make of that [Hausman 1978]. About 2,000 vertices are asked.
-/// @param pixel_size h, model units; radii are 1.3 to 8 h
+/// @param pixel_size h, model units; radii are 1.3 to 4.6 h
 /// @pre oriented, manifold (core/finish/clean_topology.h), within about h of the cloud
 [[nodiscard]] FitWindow choose_fit_window(const TriangleMesh& mesh, const PointGrid& cloud,
                                           double pixel_size);
