@@ -23,10 +23,10 @@ namespace {
 
 /// In h: about half the radius in which points around a vertex are looked for.
 constexpr double kPointCell = 0.7;
-/// In h: fits of a wider radius use one mean point a cell.
+/// In h: fits of a wider radius use mean points (PointGrid::thinned()).
 constexpr double kThinnedFrom = 2.4;
-/// Cells along each side of one of the cloud's.
-constexpr int kThinnedCells = 2;
+/// Parts along each side of a cell, with a mean point each.
+constexpr int kThinnedParts = 2;
 /// In h: how far beyond the mesh points may matter.
 constexpr double kRegionMargin = 4.0;
 
@@ -78,7 +78,7 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
   report.noise = fit.noise;
   report.fit_radius = fit.window.radius;
   const bool is_wide = fit.window.radius > kThinnedFrom * h;
-  const PointGrid thinned = is_wide ? cloud.thinned(kThinnedCells) : PointGrid({}, Box{}, h);
+  const PointGrid thinned = is_wide ? cloud.thinned(kThinnedParts) : PointGrid({}, Box{}, h);
   const PointGrid& surface = is_wide ? thinned : cloud;
   const RemeshReport remeshed = remesh(mesh, cloud, surface,
                                        {.pixel_size = h,

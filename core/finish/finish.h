@@ -10,8 +10,8 @@ namespace rangezip {
 
 enum class FinishMethod {
   fast,  ///< closes holes and removes self-intersections
-  full,  ///< also relaxes the triangles, fits vertices to the cloud, snaps sharp features, and
-         ///< moves borders out to the end of the cloud
+  full,  ///< also makes the triangles anew, fits them to the cloud, snaps sharp features, and moves
+         ///< borders out to the end of the cloud
 };
 
 struct FinishOptions {
