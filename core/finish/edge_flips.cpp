@@ -11,12 +11,12 @@ namespace rangezip {
 namespace {
 
 // Angles as cosines, smallest angles as sines.
-constexpr double kGain = 0.05;           // smaller gains would flip to and fro
-constexpr double kMinCosine = 0.5;       // between and against the old faces
-constexpr double kMaxSharper = 0.1;      // an edge may not get much sharper
-constexpr double kSmallAngle = 0.35;     // 20 degrees
-constexpr double kAlignedAngle = 0.515;  // 31 degrees
-constexpr double kAlignedGain = 0.85;    // of the deviation: smaller gains are not worth the angles
+constexpr double kGain = 0.05;          // smaller gains would flip to and fro
+constexpr double kMinCosine = 0.5;      // between and against the old faces
+constexpr double kMaxSharper = 0.1;     // an edge may not get much sharper
+constexpr double kSmallAngle = 0.35;    // 20 degrees
+constexpr double kAlignedAngle = 0.49;  // 29 degrees
+constexpr double kAlignedGain = 0.995;  // of the deviation: equal ones would turn to and fro
 constexpr double kAlignedCosine = 0.8;
 constexpr int kRegularValence = 6;
 

@@ -33,9 +33,14 @@ class Cleaner {
     for (int i = 0; i < kRounds; ++i) {
       collapse_short_edges();
       join_features();
-      for (int k = 0; k < kSliverRounds; ++k) {
-        if (!remove_slivers()) break;
-      }
+      remove_all_slivers();
+    }
+    return report_;
+  }
+
+  FeatureCleanupReport remove_all_slivers() {
+    for (int i = 0; i < kSliverRounds; ++i) {
+      if (!remove_slivers()) break;
     }
     return report_;
   }
@@ -180,6 +185,11 @@ FeatureCleanupReport clean_features(CornerTable& table, const std::vector<Vec3>&
                                     const std::vector<std::uint8_t>& is_feature,
                                     double pixel_size) {
   return Cleaner(table, positions, is_feature, pixel_size).run();
+}
+
+FeatureCleanupReport remove_slivers(CornerTable& table, const std::vector<Vec3>& positions) {
+  const std::vector<std::uint8_t> is_feature(positions.size(), 0);
+  return Cleaner(table, positions, is_feature, 0.0).remove_all_slivers();
 }
 
 }  // namespace rangezip

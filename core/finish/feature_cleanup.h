@@ -22,4 +22,8 @@ struct FeatureCleanupReport {
 FeatureCleanupReport clean_features(CornerTable& table, const std::vector<Vec3>& positions,
                                     const std::vector<std::uint8_t>& is_feature, double pixel_size);
 
+/// Removes triangles with an angle under 11 degrees by the collapse or flip that leaves the best
+/// angles, where no valid face turns over.
+FeatureCleanupReport remove_slivers(CornerTable& table, const std::vector<Vec3>& positions);
+
 }  // namespace rangezip

@@ -9,6 +9,7 @@
 #include "core/finish/clean_topology.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/extend_border.h"
+#include "core/finish/feature_cleanup.h"
 #include "core/finish/fit_vertices.h"
 #include "core/finish/fit_window.h"
 #include "core/finish/point_grid.h"
@@ -70,6 +71,18 @@ void snap(TriangleMesh& mesh, const PointGrid& cloud, const FitWindow& fit,
   }
 }
 
+/// What untangling left sharp.
+void mend_slivers(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
+                  FinishReport& report, const Progress& progress) {
+  CornerTable table(mesh.triangles, mesh.positions.size());
+  const FeatureCleanupReport mended = remove_slivers(table, mesh.positions);
+  if (mended.collapsed_edges + mended.flipped_edges == 0) return;
+  report.collapsed_edges += mended.collapsed_edges;
+  report.flipped_edges += mended.flipped_edges;
+  mesh.triangles = table.triangles();
+  separate(mesh, cloud, options, report, progress);
+}
+
 /// Better triangles, closer to the cloud, of a mesh that is closed and clean.
 void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
              FinishReport& report, const Progress& progress) {
@@ -94,6 +107,7 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
   fit_vertices(mesh, surface, fit.window, progress);
   separate(mesh, cloud, options, report, progress);
   if (options.snap_features) snap(mesh, cloud, fit, options, report, progress);
+  mend_slivers(mesh, cloud, options, report, progress);
   const ExtendBorderReport extended = extend_border(
       mesh, cloud, {.pixel_size = h, .min_component = options.min_component}, progress);
   report.border_steps = extended.steps;

@@ -53,10 +53,26 @@ class Fitter {
         if (lumped[v] > 0.0) shift[v] += (right[v] - product[v]) / lumped[v];
       }
     }
-    move(shift);
+    move(smoothed(shift));
   }
 
  private:
+  /// Half-way to the mean of the neighbours' shifts: what is rough in the least squares of the
+  /// distance tilts faces more than it brings them nearer.
+  [[nodiscard]] std::vector<double> smoothed(const std::vector<double>& shift) const {
+    std::vector<double> smooth = shift;
+    for (std::uint32_t v = 0; v < shift.size(); ++v) {
+      double sum = 0.0;
+      int count = 0;
+      table_.for_each_neighbor(v, [&](std::uint32_t w) {
+        sum += shift[w];
+        ++count;
+      });
+      if (count > 0) smooth[v] = 0.4 * shift[v] + 0.6 * sum / count;
+    }
+    return smooth;
+  }
+
   [[nodiscard]] double area_of(std::size_t face) const {
     return 0.5 *
            glm::length(face_area_vector(table_, mesh_.positions, static_cast<std::uint32_t>(face)));

@@ -97,7 +97,7 @@ std::optional<double> error_of(const std::vector<Probe>& probes, const PointGrid
 }  // namespace
 
 FitWindow choose_fit_window(const TriangleMesh& mesh, const PointGrid& cloud, double pixel_size) {
-  FitWindow chosen{{kRadii.front() * pixel_size, kFirstHeight * pixel_size}, 0.0};
+  FitWindow chosen{{kRadii.front() * pixel_size, kFirstHeight * pixel_size, 0.0}, 0.0};
   std::vector<Probe> probes = make_probes(mesh, cloud, chosen.window);
   if (probes.size() < kMinAnswers) return chosen;
   std::vector<double> squares;
@@ -114,12 +114,13 @@ FitWindow choose_fit_window(const TriangleMesh& mesh, const PointGrid& cloud, do
 
   double least = std::numeric_limits<double>::infinity();
   for (const double radius : kRadii) {
-    const SurfaceWindow window{radius * pixel_size, chosen.window.height};
+    const SurfaceWindow window{radius * pixel_size, chosen.window.height, 0.0};
     const std::optional<double> error = error_of(probes, cloud, window, noise2);
     if (!error) continue;
     if (*error <= kTolerance * kTolerance * least) chosen.window.radius = window.radius;
     least = std::min(least, *error);
   }
+  chosen.window.noise = chosen.noise;
   return chosen;
 }
 

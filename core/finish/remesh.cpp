@@ -26,12 +26,15 @@ constexpr double kCollapseTurn = 0.7;  // 45 degrees: a collapse may tilt a face
 constexpr double kMinAngleAfterCollapse = 0.15;
 constexpr double kSmallAngle = 0.5;  // 30 degrees
 constexpr double kRelaxStep = 0.7;
-constexpr double kFitMinCosine = 0.6;              // between the fitted surface and the mesh
-constexpr double kMostScaling = 1.1;               // of the wanted length, in a round
-constexpr double kEvenLength = 0.99;               // of the edge of as many equilateral triangles
+constexpr double kFitMinCosine = 0.6;  // between the fitted surface and the mesh
+constexpr int kRoundsAfterCoarse = 5;  // that make the wanted size again
+constexpr double kFirstScale = 1.6;    // coarser triangles at first leave nothing of the pixel grid
+constexpr double kMostScaling = 1.1;   // of the wanted length, in a round
+constexpr double kEvenLength = 0.99;   // of the edge of as many equilateral triangles
 constexpr std::array kProjections{1.5, 1.5, 1.0};  // before the first round, with windows of
                                                    // so many radii: the stitched mesh is rough
 constexpr int kClosingRounds = 2;
+constexpr int kAligningRounds = 4;
 constexpr int kSizingRounds = 4;  // later ones keep the relative lengths
 constexpr std::size_t kPerBlock = 512;
 
@@ -40,6 +43,7 @@ class Remesher {
   Remesher(TriangleMesh& mesh, const PointGrid& cloud, const PointGrid& surface,
            const RemeshOptions& options)
       : positions_(mesh.positions),
+        sources_(mesh.sources),
         cloud_(cloud),
         surface_(surface),
         options_(options),
@@ -57,16 +61,22 @@ class Remesher {
 
   void run(RemeshReport& report, const Progress& progress) {
     for (const double share : kProjections)
-      move_vertices(0.0, {share * options_.window.radius, options_.window.height});
+      move_vertices(
+          0.0, {share * options_.window.radius, options_.window.height, options_.window.noise});
     for (int round = 0; round < options_.rounds; ++round) {
       progress.check_stop();
       if (round + kClosingRounds < options_.rounds) {
         if (round < kSizingRounds)
           lengths_ = relative_edge_lengths(table_, positions_, fits_, scale_);
+        if (is_coarse(round)) scale_ *= kFirstScale;
         report.split_edges += split_long_edges();
         report.collapsed_edges += collapse_short_edges();
         report.flipped_edges += flip_for_valence(table_, positions_);
-        adjust_scale();
+        if (is_coarse(round)) {
+          scale_ /= kFirstScale;
+        } else {
+          adjust_scale();
+        }
       } else {
         report.flipped_edges += flip_for_angles(table_, positions_);
       }
@@ -75,12 +85,18 @@ class Remesher {
     }
     report.flipped_edges += flip_for_angles(table_, positions_);
     report.collapsed_edges += collapse_small_angles();
-    report.flipped_edges += flip_for_normals(table_, positions_, surface_normals());
+    for (int round = 0; round < kAligningRounds; ++round) {
+      if (round > 0) move_vertices(kRelaxStep, options_.window);
+      report.flipped_edges += flip_for_normals(table_, positions_, surface_normals());
+    }
   }
   [[nodiscard]] std::vector<Triangle> triangles() const { return table_.triangles(); }
 
  private:
   [[nodiscard]] const Vec3& at(std::uint32_t vertex) const { return positions_[vertex]; }
+  [[nodiscard]] bool is_coarse(int round) const {
+    return round == 0 && options_.rounds > kRoundsAfterCoarse;
+  }
   [[nodiscard]] double relative_length(std::uint32_t a, std::uint32_t b) const {
     return glm::length(at(b) - at(a)) / (0.5 * scale_ * (lengths_[a] + lengths_[b]));
   }
@@ -104,6 +120,7 @@ class Remesher {
       positions_.push_back(0.5 * (at(a) + at(b)));
       lengths_.push_back(0.5 * (lengths_[a] + lengths_[b]));
       fits_.emplace_back(fits_[a]);
+      if (!sources_.empty()) sources_.emplace_back(sources_[a]);
       faces_ += 2;
       ++count;
     }
@@ -216,6 +233,7 @@ class Remesher {
   }
 
   std::vector<Vec3>& positions_;
+  std::vector<VertexSource>& sources_;
   const PointGrid& cloud_;
   const PointGrid& surface_;
   RemeshOptions options_;
@@ -236,7 +254,6 @@ RemeshReport remesh(TriangleMesh& mesh, const PointGrid& cloud, const PointGrid&
   Remesher remesher(mesh, cloud, surface, options);
   remesher.run(report, progress);
   mesh.triangles = remesher.triangles();
-  if (!mesh.sources.empty()) mesh.sources.resize(mesh.positions.size());
   return report;
 }
 

@@ -5,11 +5,15 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/base/parallel.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/feature_cleanup.h"
+#include "core/finish/feature_place.h"
+#include "core/finish/feature_sides.h"
+#include "core/finish/relax_features.h"
 #include "core/finish/surface_fit.h"
 #include "core/finish/vertex_geometry.h"
 
@@ -20,26 +24,20 @@ namespace {
 constexpr double kFitRadius = 1.5;
 constexpr double kFitRadiusShare = 0.7;  // of the radius that the noise demands, if that is more
 constexpr double kFitHeight = 1.2;
-constexpr int kMinFitPoints = 10;
+constexpr int kMinFitPoints = 12;
+constexpr std::array kWiderWindows{1.0, 1.3, 1.7};  // where points are few
 constexpr double kCleanResidual = 0.008;  // of the points about a clean surface, beyond the noise
 constexpr double kSureness = 3.0;         // standard deviations
 constexpr int kFitTerms = 6;
 constexpr double kCleanMinCosine = 0.8;  // between the surface and the mesh
 constexpr int kRings = 4;                // where clean surfaces are looked for
 constexpr std::size_t kMinCleanSurfaces = 6;
-constexpr double kFeatureCosine = 0.82;  // 35 degrees: sides of a feature differ by more
-constexpr double kWeightRadius = 4.5;    // of surfaces in the quadric
-constexpr double kHoldInPlace = 1e-3;    // weight of not moving, against sliding along an edge
-constexpr double kMaxMove = 1.5;
-constexpr double kReach = 0.4;          // of the edges around: vertices so near go onto the feature
-constexpr double kCornerReach = 0.8;    // the same for corners, of which none may be missed
-constexpr double kProofRadius = 0.87;   // of that of the fits: points that must lie on the surfaces
-constexpr double kProofSureness = 1.5;  // standard deviations
-constexpr double kProofResidual = 0.06;  // beyond the noise
-constexpr double kSharperShare = 0.5;    // of the residual of a smooth surface
-constexpr int kMinProofPoints = 5;
+constexpr double kWeightRadius = 4.5;  // of surfaces in the mean of a side
+constexpr double kStep = 0.3;          // beyond the noise: surfaces so far apart are two sides
+constexpr double kSplitReach = 0.7;    // of an edge: it crosses the feature so near its middle
+constexpr double kFaceCosine = 0.5;    // between a face and its side
+constexpr int kTidyRounds = 3;
 constexpr std::size_t kVerticesPerBlock = 256;
-constexpr std::size_t kMaxSides = 3;
 
 /// The surface around a vertex.
 struct VertexSurface {
@@ -50,132 +48,27 @@ struct VertexSurface {
   bool is_clean = false;
 };
 
-/// The height of a place p over a surface next to it: constant + slope.p - p.bending.p / 2.
-struct Height {
-  double constant = 0.0;
-  Vec3 slope{0.0};
-  Mat3 bending{0.0};
-
-  [[nodiscard]] double at(const Vec3& p) const {
-    return constant + glm::dot(slope, p) - 0.5 * glm::dot(p, bending * p);
-  }
-  void add(const Height& other, double weight) {
-    constant += weight * other.constant;
-    slope += weight * other.slope;
-    bending += weight * other.bending;
-  }
-};
-
-/// A clean surface seen from a candidate's place, with its weight; the plane is that which touches
-/// it there.
-struct NearSurface {
-  Height height;
-  Vec3 normal;
-  double weight;
-};
-
-/// The surfaces of one side of a feature as one.
-struct Side {
-  Height height;
-  double weight = 0.0;
-
-  /// The nearest place of the side, up to its bending.
-  [[nodiscard]] Vec3 foot() const {
-    return -height.constant / glm::dot(height.slope, height.slope) * height.slope;
-  }
-  [[nodiscard]] double distance(const Vec3& p) const { return std::abs(height.at(p)); }
-};
-
 /// Where a vertex goes.
 struct Snap {
   Vec3 move{0.0};
-  std::uint8_t feature = 0;  ///< 1 on an edge, 2 at a corner, 0 on a side
-  VertexSurface surface;     ///< of that side
+  std::uint8_t feature = 0;          ///< 1 on an edge, 2 at a corner, 0 on a side
+  std::vector<FeatureSide> meeting;  ///< the sides that meet there, relative to the old place
+  VertexSurface surface;             ///< of the side
+};
+
+/// The sides that meet in a vertex on a feature.
+struct Feature {
+  Vec3 origin{0.0};
+  std::vector<FeatureSide> sides;
 };
 
 /// What a surface is over a place, relative to that place.
-NearSurface seen_from(const Vec3& place, const VertexSurface& surface, double weight) {
+FeatureSide seen_from(const Vec3& place, const VertexSurface& surface, double weight) {
   const Vec3 d = place - surface.center;
   const Vec3 bent = surface.bending * d;
-  NearSurface seen;
-  seen.height = {glm::dot(surface.normal, d) - 0.5 * glm::dot(d, bent), surface.normal - bent,
-                 surface.bending};
-  seen.normal = unit_or_z(seen.height.slope);
-  seen.weight = weight;
-  return seen;
-}
-
-/// The surfaces in two or three groups around the normals that differ most; none if they do not
-/// differ enough.
-std::vector<Side> sides_of(const std::vector<NearSurface>& surfaces) {
-  const auto cosine = [&](std::size_t i, std::size_t j) {
-    return glm::dot(surfaces[i].normal, surfaces[j].normal);
-  };
-  std::array<std::size_t, kMaxSides> seeds{};
-  double least = 1.0;
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    for (std::size_t j = i + 1; j < surfaces.size(); ++j) {
-      if (cosine(i, j) >= least) continue;
-      least = cosine(i, j);
-      seeds = {i, j, 0};
-    }
-  }
-  if (least > kFeatureCosine) return {};
-  std::size_t count = 2;
-  double third = kFeatureCosine;
-  for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    const double nearest = std::max(cosine(k, seeds[0]), cosine(k, seeds[1]));
-    if (nearest >= third) continue;
-    third = nearest;
-    seeds[2] = k;
-    count = 3;
-  }
-  std::vector<Side> sides(count);
-  for (std::size_t k = 0; k < surfaces.size(); ++k) {
-    std::size_t nearest = 0;
-    for (std::size_t s = 1; s < count; ++s) {
-      if (cosine(k, seeds[s]) > cosine(k, seeds[nearest])) nearest = s;
-    }
-    sides[nearest].height.add(surfaces[k].height, surfaces[k].weight);
-    sides[nearest].weight += surfaces[k].weight;
-  }
-  for (Side& side : sides) {
-    if (!(side.weight > 0.0)) return {};
-    Height mean;
-    mean.add(side.height, 1.0 / side.weight);
-    side.height = mean;
-  }
-  return sides;
-}
-
-/// The minimum of the quadric of all planes.
-std::optional<Vec3> meeting_place(const std::vector<NearSurface>& surfaces) {
-  Mat3 a(kHoldInPlace);
-  Vec3 b{0.0};
-  for (const NearSurface& s : surfaces) {
-    const double length = glm::length(s.height.slope);
-    const Vec3 weighted = s.weight * s.normal;
-    a += glm::outerProduct(weighted, s.normal);
-    b -= s.height.constant / length * weighted;
-  }
-  // Cramer's rule on the columns; the matrix is positive definite.
-  const Vec3 c0 = glm::cross(a[1], a[2]), c1 = glm::cross(a[2], a[0]), c2 = glm::cross(a[0], a[1]);
-  const double determinant = glm::dot(a[0], c0);
-  if (!(determinant > 0.0)) return std::nullopt;
-  return Vec3(glm::dot(b, c0), glm::dot(b, c1), glm::dot(b, c2)) / determinant;
-}
-
-/// The place on both planes that is nearest to `place`; nothing if they hardly differ.
-std::optional<Vec3> place_on_both(const Vec3& place, const VertexSurface& a,
-                                  const VertexSurface& b) {
-  const double cosine = glm::dot(a.normal, b.normal);
-  if (cosine > kFeatureCosine) return std::nullopt;
-  const double to_a = glm::dot(a.normal, a.center - place),
-               to_b = glm::dot(b.normal, b.center - place);
-  const double determinant = 1.0 - cosine * cosine;
-  if (!(determinant > 0.0)) return std::nullopt;
-  return place +
-         ((to_a - cosine * to_b) * a.normal + (to_b - cosine * to_a) * b.normal) / determinant;
+  return {{glm::dot(surface.normal, d) - 0.5 * glm::dot(d, bent), surface.normal - bent,
+           surface.bending},
+          weight};
 }
 
 class Snapper {
@@ -186,9 +79,10 @@ class Snapper {
         h_(options.pixel_size),
         noise2_(options.fit.noise * options.fit.noise),
         window_{std::max(kFitRadius * h_, kFitRadiusShare * options.fit.window.radius),
-                std::max(kFitHeight * h_, options.fit.window.height)},
+                std::max(kFitHeight * h_, options.fit.window.height), 0.0},
         table_(mesh.triangles, mesh.positions.size()),
-        surfaces_(mesh.positions.size()) {}
+        surfaces_(mesh.positions.size()),
+        features_(mesh.positions.size()) {}
 
   SnapReport run(const Progress& progress) {
     fit_surfaces();
@@ -204,9 +98,16 @@ class Snapper {
       positions_ = before;  // sides without an edge between them
       return report;
     }
-    const FeatureCleanupReport cleaned = clean_features(table_, positions_, is_feature, h_);
-    report.collapsed_edges = cleaned.collapsed_edges;
-    report.flipped_edges = cleaned.flipped_edges;
+    for (int round = 0; round < kTidyRounds; ++round) {
+      if (round > 0) report.split_edges += split_crossing_edges(is_feature);
+      const FeatureCleanupReport cleaned = clean_features(table_, positions_, is_feature, h_);
+      report.collapsed_edges += cleaned.collapsed_edges;
+      report.flipped_edges += cleaned.flipped_edges;
+      relax_features(
+          table_, positions_, is_feature,
+          {[&](std::uint32_t v, const Vec3& target) { return place_on(v, target); },
+           [&](std::uint32_t v, const Vec3& direction) { return may_face(v, direction); }});
+    }
     return report;
   }
   [[nodiscard]] std::vector<Triangle> triangles() const { return table_.triangles(); }
@@ -221,8 +122,8 @@ class Snapper {
 
   [[nodiscard]] VertexSurface surface_at(std::uint32_t v) const {
     const Vec3 normal = vertex_normal(table_, positions_, v);
-    const auto [fit, scatter] = measure_surface(cloud_, positions_[v], normal, window_);
-    if (!fit.is_found || fit.count < kMinFitPoints) return {};
+    const auto [fit, scatter] = measured_at(positions_[v], normal);
+    if (!fit.is_found || fit.count < kMinFitPoints) return {.residual2 = h_ * h_};
     // Of pure noise, hardly a mean square is larger.
     const double most_noise = 1.0 + kSureness * std::sqrt(2.0 / (fit.count - kFitTerms));
     const double limit = kCleanResidual * h_;
@@ -232,6 +133,17 @@ class Snapper {
             .residual2 = scatter.noise2,
             .is_clean = scatter.noise2 < limit * limit + most_noise * noise2_ &&
                         glm::dot(fit.normal, normal) > kCleanMinCosine};
+  }
+
+  /// Where points are few, of a wider window.
+  [[nodiscard]] MeasuredFit measured_at(const Vec3& place, const Vec3& normal) const {
+    MeasuredFit measured;
+    for (const double wider : kWiderWindows) {
+      measured =
+          measure_surface(cloud_, place, normal, {wider * window_.radius, window_.height, 0.0});
+      if (measured.fit.is_found && measured.fit.count >= kMinFitPoints) break;
+    }
+    return measured;
   }
 
   /// Moves what can be moved; returns flags of the vertices that are on features now.
@@ -246,6 +158,7 @@ class Snapper {
     std::vector<std::uint8_t> is_feature(positions_.size(), 0);
     for (std::size_t v = 0; v < snaps.size(); ++v) {
       if (!snaps[v]) continue;
+      features_[v] = {positions_[v], std::move(snaps[v]->meeting)};
       positions_[v] += snaps[v]->move;
       is_feature[v] = snaps[v]->feature;
       if (snaps[v]->feature == 0) surfaces_[v] = snaps[v]->surface;
@@ -254,31 +167,35 @@ class Snapper {
   }
 
   [[nodiscard]] std::optional<Snap> snap_of(std::uint32_t v) const {
-    const std::vector<NearSurface> surfaces = clean_surfaces_around(v);
+    const std::vector<FeatureSide> surfaces = clean_surfaces_around(v);
     if (surfaces.size() < kMinCleanSurfaces) return std::nullopt;
-    const std::vector<Side> sides = sides_of(surfaces);
-    if (sides.size() < 2) return std::nullopt;
-    const std::optional<Vec3> move = meeting_place(surfaces);
-    if (!move || glm::length(*move) > kMaxMove * h_) return std::nullopt;
-    if (!is_proved(v, *move, sides)) return std::nullopt;
-    const double reach = sides.size() == kMaxSides ? kCornerReach : kReach;
-    if (glm::length(*move) <= reach * mean_edge_at(v))
-      return Snap{*move, static_cast<std::uint8_t>(sides.size() - 1), {}};
-    const Side& nearest = *std::min_element(
-        sides.begin(), sides.end(),
-        [](const Side& a, const Side& b) { return a.distance(Vec3{0.0}) < b.distance(Vec3{0.0}); });
-    return Snap{nearest.foot(),
-                0,
-                {.center = positions_[v] + nearest.foot(),
-                 .normal = unit_or_z(nearest.height.slope),
-                 .bending = nearest.height.bending,
-                 .residual2 = noise2_,
-                 .is_clean = true}};
+    const double step = kStep * h_ + kSureness * std::sqrt(noise2_);
+    const Surroundings around = surroundings(positions_[v], sides_of(surfaces, step));
+    const FeaturePlace found = find_feature_place(around, mean_edge_at(v), surfaces_[v].residual2);
+    if (found.count == 0) return std::nullopt;
+    Snap snap{found.place, static_cast<std::uint8_t>(found.count - 1), {}, {}};
+    const FeatureSide& first = around.sides[found.sides[0]];
+    if (found.count == 1) snap.surface = surface_of(first, positions_[v], found.place);
+    if (found.count == 2) snap.meeting = {first, around.sides[found.sides[1]]};
+    return snap;
   }
 
-  [[nodiscard]] std::vector<NearSurface> clean_surfaces_around(std::uint32_t v) const {
+  [[nodiscard]] Surroundings surroundings(const Vec3& place, std::vector<FeatureSide> sides) const {
+    return {cloud_, h_, window_.radius, noise2_, place, std::move(sides)};
+  }
+
+  [[nodiscard]] VertexSurface surface_of(const FeatureSide& side, const Vec3& origin,
+                                         const Vec3& place) const {
+    return {.center = origin + place,
+            .normal = unit_or_z(side.height.slope_at(place)),
+            .bending = side.height.bending,
+            .residual2 = noise2_,
+            .is_clean = true};
+  }
+
+  [[nodiscard]] std::vector<FeatureSide> clean_surfaces_around(std::uint32_t v) const {
     std::vector<std::uint32_t> seen{v};
-    std::vector<NearSurface> surfaces;
+    std::vector<FeatureSide> surfaces;
     const double per_radius2 = 1.0 / (kWeightRadius * kWeightRadius * h_ * h_);
     std::size_t begin = 0;
     for (int ring = 0; ring < kRings; ++ring) {
@@ -291,7 +208,8 @@ class Snapper {
           const Vec3 d = surfaces_[w].center - positions_[v];
           const double nearness = std::max(0.0, 1.0 - glm::dot(d, d) * per_radius2);
           const double squared = nearness * nearness;
-          surfaces.push_back(seen_from(positions_[v], surfaces_[w], squared * squared));
+          if (nearness > 0.0)
+            surfaces.push_back(seen_from(positions_[v], surfaces_[w], squared * squared));
         });
       }
     }
@@ -308,27 +226,27 @@ class Snapper {
     return count > 0 ? sum / count : 0.0;
   }
 
-  /// The points next to the new place lie on the sides, and much closer than on a smooth surface.
-  [[nodiscard]] bool is_proved(std::uint32_t v, const Vec3& move,
-                               const std::vector<Side>& sides) const {
-    const double radius = kProofRadius * window_.radius;
-    double sum = 0.0;
-    int count = 0;
-    cloud_.for_each_near(positions_[v] + move, radius, [&](const Vec3& d) {
-      if (glm::dot(d, d) > radius * radius) return;
-      double least = radius;
-      for (const Side& side : sides)
-        least = std::min(least, side.distance(d + move));
-      sum += least * least;
-      ++count;
+  /// See VertexSides.
+  [[nodiscard]] std::optional<Vec3> place_on(std::uint32_t v, const Vec3& target) const {
+    std::vector<FeatureSide> sides;
+    for (const FeatureSide& side : features_[v].sides)
+      sides.push_back({side.height.seen_from(target - features_[v].origin), side.weight});
+    if (sides.empty() && surfaces_[v].is_clean)
+      sides.push_back(seen_from(target, surfaces_[v], 1.0));
+    if (sides.empty()) return std::nullopt;
+    const std::optional<Vec3> place = meeting_place(sides);
+    if (!place || glm::length(*place) > h_) return std::nullopt;
+    return target + *place;
+  }
+
+  /// See VertexSides.
+  [[nodiscard]] bool may_face(std::uint32_t v, const Vec3& direction) const {
+    const Feature& feature = features_[v];
+    if (feature.sides.empty())
+      return !surfaces_[v].is_clean || has_cosine(surfaces_[v].normal, direction, kFaceCosine);
+    return std::any_of(feature.sides.begin(), feature.sides.end(), [&](const FeatureSide& side) {
+      return has_cosine(side.height.slope, direction, kFaceCosine);
     });
-    if (count < kMinProofPoints) return false;
-    const double limit = kProofResidual * h_;
-    const double scatter = 1.0 + kProofSureness * std::sqrt(2.0 / count);
-    const double residual2 = sum / count;
-    const double smooth_excess = surfaces_[v].residual2 - noise2_;
-    return residual2 < limit * limit + scatter * noise2_ && smooth_excess > noise2_ &&
-           residual2 - noise2_ < kSharperShare * smooth_excess;
   }
 
   /// Edges between clean sides of a feature, none of whose ends is on it.
@@ -341,12 +259,17 @@ class Snapper {
       if (is_feature[a] != 0 || is_feature[b] != 0) continue;
       if (!surfaces_[a].is_clean || !surfaces_[b].is_clean) continue;
       const Vec3 middle = 0.5 * (positions_[a] + positions_[b]);
-      const std::optional<Vec3> place = place_on_both(middle, surfaces_[a], surfaces_[b]);
-      if (!place || glm::distance(*place, middle) > glm::distance(positions_[a], positions_[b]))
+      const Surroundings around = surroundings(
+          middle, {seen_from(middle, surfaces_[a], 1.0), seen_from(middle, surfaces_[b], 1.0)});
+      if (is_one_side(around.sides[0], around.sides[1])) continue;
+      const std::optional<Vec3> place = meeting_place(around.sides);
+      if (!place || glm::length(*place) > kSplitReach * glm::distance(positions_[a], positions_[b]))
         continue;
+      if (!residual2_of_sides(around, *place, {0, 1})) continue;
       table_.split_edge(c);
-      positions_.push_back(*place);
+      positions_.push_back(middle + *place);
       surfaces_.emplace_back();
+      features_.push_back({middle, around.sides});
       is_feature.push_back(1);
       ++count;
     }
@@ -360,6 +283,7 @@ class Snapper {
   SurfaceWindow window_;
   CornerTable table_;
   std::vector<VertexSurface> surfaces_;
+  std::vector<Feature> features_;  ///< one a vertex; without sides except on edges
 };
 
 }  // namespace

@@ -11,6 +11,8 @@ constexpr std::size_t kTerms = 6;  // 1, u, v, u u, u v, v v
 constexpr std::size_t kPlaneTerms = 3;
 constexpr int kMinQuadricPoints = 12;
 constexpr int kMinPlanePoints = 6;
+constexpr double kMeanWeight = 4.0 / 7.0;  // of squared weights per weight, over a disk
+constexpr double kDoubt = 2.0;             // of what noise makes: more flattens what bends a little
 constexpr double kMinPivot = 1e-4;  // of the diagonal: below, the points do not tell the term
 
 using Terms = std::array<double, kTerms>;
@@ -127,6 +129,32 @@ Solution solve(const NormalEquations& equations) {
   return {};
 }
 
+/// The share of the bending that is not to be put down to noise: 0 where noise alone would give as
+/// much, towards 1 where it is far more [James, Stein 1961].
+double believed_bending(const Solution& solution, double noise) {
+  const TermMatrix& l = solution.factor;
+  double square = 0.0;
+  for (std::size_t i = kPlaneTerms; i < kTerms; ++i) {
+    double sum = 0.0;
+    for (std::size_t k = i; k < kTerms; ++k)
+      sum += l[k][i] * solution.terms[k];
+    square += sum * sum;
+  }
+  const double expected = kMeanWeight * noise * noise;
+  return square > kDoubt * expected ? 1.0 - kDoubt * expected / square : 0.0;
+}
+
+/// Between the quadric and the plane of least squares: that of least squares for the bending.
+void shrink_bending(Solution& solution, const NormalEquations& equations, double noise) {
+  if (solution.size != kTerms || !(noise > 0.0)) return;
+  const double share = believed_bending(solution, noise);
+  Terms right{};
+  std::copy_n(equations.right.begin(), kPlaneTerms, right.begin());
+  const Terms plane = solve(solution.factor, right, kPlaneTerms);
+  for (std::size_t i = 0; i < kTerms; ++i)
+    solution.terms[i] = share * solution.terms[i] + (1.0 - share) * plane[i];
+}
+
 SurfaceFit fit_from(const Solution& solution, int count, const Frame& frame, double radius) {
   SurfaceFit fit;
   if (solution.size == 0) return fit;
@@ -188,7 +216,9 @@ SurfaceFit fit_surface(const PointGrid& cloud, const Vec3& place, const Vec3& no
   const Frame frame(normal);
   NormalEquations equations;
   for_each_sample(cloud, place, frame, window, [&](const Sample& s) { equations.add(s); });
-  return fit_from(solve(equations), equations.count, frame, window.radius);
+  Solution solution = solve(equations);
+  shrink_bending(solution, equations, window.noise / window.radius);
+  return fit_from(solution, equations.count, frame, window.radius);
 }
 
 MeasuredFit measure_surface(const PointGrid& cloud, const Vec3& place, const Vec3& normal,

@@ -11,6 +11,8 @@ namespace rangezip {
 struct SurfaceWindow {
   double radius = 0.0;  ///< model units, positive
   double height = 0.0;  ///< farther from the tangent plane, points belong to another sheet
+  double noise = 0.0;   ///< standard deviation of the points from the surface, model units: bending
+                        ///< that it may have made is taken back; 0: all of it is believed
 };
 
 /// The surface that a cloud shows next to a place, as a quadratic height over the tangent plane.

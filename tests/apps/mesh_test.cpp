@@ -144,9 +144,10 @@ TEST_CASE("the sources of a mesh name the point behind a vertex and the view tha
     if (source.primitive == kNoPrimitive) continue;
     REQUIRE(source.primitive < points.size());
     ++with_point;
-    // Won in the vertex's own pixel; the finish then moves vertices by a few pixels.
+    // Won in the vertex's own pixel; the finish then moves vertices by a few pixels, and those that
+    // it makes have the point of a neighbour.
     const Vec3 point = item.world_from_item * Vec4(Vec3(points[source.primitive]), 1.0);
-    CHECK(glm::distance(position, point) < 4.0 * pixel_size);
+    CHECK(glm::distance(position, point) < 6.0 * pixel_size);
   }
   CHECK(with_point > vertex_count / 2);
 }

@@ -55,6 +55,26 @@ TEST_CASE("the fit to points of a quadric is that quadric") {
   REQUIRE(glm::length(fit.bending * z) < 1e-9);
 }
 
+TEST_CASE("bending that noise may have made is taken back, the rest stays") {
+  const std::uint64_t seed = GENERATE(11U, 12U, 13U, 14U);
+  CAPTURE(seed);
+  constexpr double kNoise = 0.02;
+  const Vec3 z(0.0, 0.0, 1.0);
+  const auto bending = [&](const Quadric& quadric, double told_noise) {
+    std::mt19937_64 engine(seed);
+    const PointGrid cloud(points_of(quadric, 400, kNoise, engine), kRegion, 0.2);
+    const SurfaceFit fit = fit_surface(cloud, Vec3{0.0}, z, {kRadius, 1.0, told_noise});
+    REQUIRE(fit.is_found);
+    return fit.bending;
+  };
+  const auto size = [](const Mat3& m) {
+    return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]));
+  };
+  const Quadric flat{0.0, 0.0, 0.0}, bent{6.0, 0.0, 6.0};
+  REQUIRE(size(bending(flat, kNoise)) < 0.8 * size(bending(flat, 0.0)));
+  REQUIRE(size(bending(bent, kNoise)) == Approx(size(bending(bent, 0.0))).epsilon(0.01));
+}
+
 TEST_CASE("noise and the variance of the height come out as they are") {
   std::mt19937_64 engine(4);
   constexpr double kNoise = 0.02;

@@ -1,0 +1,184 @@
+#include "core/finish/feature_place.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/finish/vertex_geometry.h"
+
+namespace rangezip {
+namespace {
+
+// Lengths are in h, angles as cosines, squared distances of points in those of the noise.
+constexpr std::size_t kMaxSides = 5;
+constexpr double kFeatureCosine = 0.87;
+constexpr double kCornerReach = 0.8;  // of the edges around; of corners none may be missed
+constexpr double kEdgeReach = 0.5;    // of the edges around: one of two ends is so near
+constexpr double kMaxMove = 2.5;
+constexpr double kProofRadius = 0.87;              // of that of the surroundings
+constexpr std::array kWiderProofs{1.0, 1.3, 1.7};  // where points are few
+constexpr int kMinProofPoints = 8;
+constexpr int kMinPointsOfSide = 2;
+constexpr double kProofSureness = 1.5;   // standard deviations
+constexpr double kProofResidual = 0.06;  // beyond the noise
+constexpr double kSharperShare = 0.5;    // of the residual of a smooth surface
+constexpr double kBeyond = 0.05;
+constexpr double kBeyondShare = 0.15;  // of the points: so few may lie where the side has ended
+
+/// The points around a place.
+struct Proof {
+  int count = 0;
+  std::array<int, kMaxSides> nearest{};  ///< points, for each side
+  double residual2 = 0.0;                ///< mean square distance to the nearest side
+};
+
+/// Calls visit(point relative to the origin).
+template <class Visit>
+void for_each_point(const Surroundings& around, const Vec3& place, double radius, Visit visit) {
+  around.cloud.for_each_near(around.origin + place, radius, [&](const Vec3& d) {
+    if (glm::dot(d, d) <= radius * radius) visit(place + d);
+  });
+}
+
+std::size_t side_count(const Surroundings& around) {
+  return std::min(around.sides.size(), kMaxSides);
+}
+
+Proof proof_at(const Surroundings& around, const Vec3& place, double radius) {
+  Proof proof;
+  for_each_point(around, place, radius, [&](const Vec3& p) {
+    double least = radius;
+    std::size_t nearest = 0;
+    for (std::size_t i = 0; i < side_count(around); ++i) {
+      const double distance = std::abs(around.sides[i].height.at(p));
+      if (distance >= least) continue;
+      least = distance;
+      nearest = i;
+    }
+    proof.residual2 += least * least;
+    ++proof.count;
+    ++proof.nearest[nearest];
+  });
+  if (proof.count > 0) proof.residual2 /= proof.count;
+  return proof;
+}
+
+bool is_proved(const Surroundings& around, double smooth_residual2, const Vec3& place,
+               std::initializer_list<std::size_t> meeting) {
+  const double smooth_excess = smooth_residual2 - around.noise2;
+  if (!(smooth_excess > around.noise2)) return false;
+  const std::optional<double> residual2 = residual2_of_sides(around, place, meeting);
+  return residual2 && *residual2 - around.noise2 < kSharperShare * smooth_excess;
+}
+
+/// Whether a place on one side lies on the wrong side of another, as hardly a point of the first
+/// does.
+bool is_beyond(const Surroundings& around, const Vec3& place, std::size_t own, std::size_t other) {
+  const SurfaceHeight &on = around.sides[own].height, &over = around.sides[other].height;
+  const double height = over.at(place);
+  if (std::abs(height) < kBeyond * around.pixel_size) return false;
+  int same = 0, opposite = 0;
+  for_each_point(around, place, around.radius, [&](const Vec3& p) {
+    const double h = over.at(p);
+    if (std::abs(on.at(p)) < std::abs(h)) ++(h * height > 0.0 ? same : opposite);
+  });
+  return same < kBeyondShare * opposite;
+}
+
+/// Whether the place lies where one of the sides that meet there has ended at a third.
+bool is_beyond_others(const Surroundings& around, const Vec3& place,
+                      std::initializer_list<std::size_t> meeting) {
+  for (std::size_t k = 0; k < side_count(around); ++k) {
+    if (std::find(meeting.begin(), meeting.end(), k) != meeting.end()) continue;
+    for (const std::size_t i : meeting) {
+      if (!is_one_side(around.sides[i], around.sides[k]) && is_beyond(around, place, i, k))
+        return true;
+    }
+  }
+  return false;
+}
+
+/// Takes the place where the given sides meet if it is nearer than the one so far, and proved.
+void offer(const Surroundings& around, double smooth_residual2, double reach,
+           std::initializer_list<std::size_t> meeting, FeaturePlace& nearest) {
+  std::vector<FeatureSide> sides;
+  for (const std::size_t i : meeting) {
+    for (const FeatureSide& other : sides) {
+      if (is_one_side(around.sides[i], other)) return;
+    }
+    sides.push_back(around.sides[i]);
+  }
+  const std::optional<Vec3> place = meeting_place(sides);
+  const double farthest = nearest.count > 0 ? glm::length(nearest.place) : reach;
+  if (!place || !(glm::length(*place) < farthest)) return;
+  if (is_beyond_others(around, *place, meeting)) return;
+  if (!is_proved(around, smooth_residual2, *place, meeting)) return;
+  nearest = {meeting.size(), *place, {}};
+  std::copy(meeting.begin(), meeting.end(), nearest.sides.begin());
+}
+
+FeaturePlace nearest_corner(const Surroundings& around, double smooth_residual2, double reach) {
+  FeaturePlace nearest;
+  for (std::size_t i = 0; i < side_count(around); ++i) {
+    for (std::size_t j = i + 1; j < side_count(around); ++j) {
+      for (std::size_t k = j + 1; k < side_count(around); ++k)
+        offer(around, smooth_residual2, reach, {i, j, k}, nearest);
+    }
+  }
+  return nearest;
+}
+
+FeaturePlace nearest_edge(const Surroundings& around, double smooth_residual2) {
+  FeaturePlace nearest;
+  for (std::size_t i = 0; i < side_count(around); ++i) {
+    for (std::size_t j = i + 1; j < side_count(around); ++j)
+      offer(around, smooth_residual2, kMaxMove * around.pixel_size, {i, j}, nearest);
+  }
+  return nearest;
+}
+
+/// On the nearer of the two sides of an edge.
+FeaturePlace nearest_side(const Surroundings& around, double smooth_residual2,
+                          const FeaturePlace& edge) {
+  FeaturePlace nearest;
+  for (const auto& [own, other] : {std::pair(edge.sides[0], edge.sides[1]),  //
+                                   std::pair(edge.sides[1], edge.sides[0])}) {
+    const std::optional<Vec3> foot = meeting_place({&around.sides[own], 1});
+    if (!foot || (nearest.count > 0 && glm::length(nearest.place) <= glm::length(*foot))) continue;
+    if (!is_beyond(around, *foot, own, other)) nearest = {1, *foot, {own}};
+  }
+  if (nearest.count > 0 && !is_proved(around, smooth_residual2, nearest.place, {})) return {};
+  return nearest;
+}
+
+}  // namespace
+
+FeaturePlace find_feature_place(const Surroundings& around, double edge, double smooth_residual2) {
+  const FeaturePlace corner = nearest_corner(around, smooth_residual2, kCornerReach * edge);
+  if (corner.count > 0) return corner;
+  const FeaturePlace ridge = nearest_edge(around, smooth_residual2);
+  if (ridge.count == 0 || glm::length(ridge.place) <= kEdgeReach * edge) return ridge;
+  return nearest_side(around, smooth_residual2, ridge);
+}
+
+std::optional<double> residual2_of_sides(const Surroundings& around, const Vec3& place,
+                                         std::initializer_list<std::size_t> meeting) {
+  for (const double wider : kWiderProofs) {
+    const Proof proof = proof_at(around, place, wider * kProofRadius * around.radius);
+    const bool has_all = std::all_of(meeting.begin(), meeting.end(), [&](std::size_t i) {
+      return proof.nearest[i] >= kMinPointsOfSide;
+    });
+    if (proof.count < kMinProofPoints || !has_all) continue;
+    const double limit = kProofResidual * around.pixel_size;
+    const double scatter = 1.0 + kProofSureness * std::sqrt(2.0 / proof.count);
+    if (!(proof.residual2 < limit * limit + scatter * around.noise2)) return std::nullopt;
+    return proof.residual2;
+  }
+  return std::nullopt;
+}
+
+bool is_one_side(const FeatureSide& a, const FeatureSide& b) {
+  return has_cosine(a.height.slope, b.height.slope, kFeatureCosine);
+}
+
+}  // namespace rangezip

@@ -1,0 +1,211 @@
+#include "core/finish/relax_features.h"
+
+#include <algorithm>
+
+#include "core/finish/triangle_shape.h"
+#include "core/finish/vertex_geometry.h"
+
+namespace rangezip {
+namespace {
+
+constexpr int kRounds = 5;
+constexpr int kRings = 2;
+constexpr double kGain = 0.005;       // of the sine of the smallest angle
+constexpr double kCrease = 0.87;      // cosine: faces that differ by more are two sides
+constexpr double kOneSide = 0.95;     // cosine: faces of one side
+constexpr double kTurn = 0.9;         // cosine: how far a face may turn
+constexpr int kMendFrom = 2;          // rounds that only relax
+constexpr double kSmallAngle = 0.4;   // sine: 24 degrees
+constexpr double kSmallEnough = 0.7;  // sine of the smallest angle: better ones are left alone
+
+class Relaxer {
+ public:
+  Relaxer(CornerTable& table, std::vector<Vec3>& positions,
+          const std::vector<std::uint8_t>& is_feature, const VertexSides& sides)
+      : table_(table), positions_(positions), is_feature_(is_feature), sides_(sides) {}
+
+  void run() {
+    const std::vector<std::uint32_t> vertices = near_features();
+    for (int round = 0; round < kRounds; ++round) {
+      for (const std::uint32_t v : vertices)
+        relax(v);
+      for (const std::uint32_t v : vertices)
+        turn_edges(v);
+      if (round < kMendFrom) continue;
+      for (const std::uint32_t v : vertices)
+        mend(v);
+    }
+  }
+
+ private:
+  [[nodiscard]] const Vec3& at(std::uint32_t vertex) const { return positions_[vertex]; }
+
+  /// The inner vertices within kRings edges of a feature, in order.
+  [[nodiscard]] std::vector<std::uint32_t> near_features() const {
+    std::vector<std::uint8_t> is_near(is_feature_.size());
+    std::vector<std::uint32_t> vertices;
+    const auto add = [&](std::uint32_t v) {
+      if (is_near[v] != 0) return;
+      is_near[v] = 1;
+      vertices.push_back(v);
+    };
+    for (std::uint32_t v = 0; v < is_feature_.size(); ++v) {
+      if (is_feature_[v] != 0 && table_.corner_of(v) != CornerTable::kNone) add(v);
+    }
+    std::size_t begin = 0;
+    for (int ring = 0; ring < kRings; ++ring) {
+      const std::size_t end = vertices.size();
+      for (; begin < end; ++begin)
+        table_.for_each_neighbor(vertices[begin], add);
+    }
+    std::erase_if(vertices, [&](std::uint32_t v) { return table_.is_boundary(v); });
+    std::sort(vertices.begin(), vertices.end());
+    return vertices;
+  }
+
+  void relax(std::uint32_t v) {
+    if (is_feature_[v] > 1) return;
+    if (table_.corner_of(v) == CornerTable::kNone) return;
+    const double before = smallest_angle(v, at(v));
+    if (before > kSmallEnough) return;
+    const std::optional<Vec3> middle =
+        is_feature_[v] != 0 ? middle_of_chain(v) : middle_of_faces(v);
+    if (!middle) return;
+    const std::optional<Vec3> place = sides_.place_on(v, *middle);
+    if (!place || smallest_angle(v, *place) < before + kGain) return;
+    if (before >= 0.0 && turns_face(v, *place)) return;
+    positions_[v] = *place;
+  }
+
+  /// Sine of the smallest angle of the faces around a vertex, were it at `place`; where faces look
+  /// the wrong way, the sum of theirs as a negative number.
+  [[nodiscard]] double smallest_angle(std::uint32_t v, const Vec3& place) const {
+    double smallest = 1.0, wrong = 0.0;
+    table_.for_each_corner(v, [&](std::uint32_t c) {
+      const Vec3 &p = at(table_.head(c)), &q = at(table_.apex(c));
+      const double angle = sine_of_smallest_angle(place, p, q);
+      if (!sides_.may_face(v, area_vector(place, p, q))) wrong += angle;
+      smallest = std::min(smallest, angle);
+    });
+    return wrong > 0.0 ? -wrong : smallest;
+  }
+
+  [[nodiscard]] bool turns_face(std::uint32_t v, const Vec3& place) const {
+    bool turns = false;
+    table_.for_each_corner(v, [&](std::uint32_t c) {
+      const Vec3 &p = at(table_.head(c)), &q = at(table_.apex(c));
+      turns = turns || !has_cosine(area_vector(at(v), p, q), area_vector(place, p, q), kTurn);
+    });
+    return turns;
+  }
+
+  /// Of the two neighbours along the edge of the feature; nothing where there are not two.
+  [[nodiscard]] std::optional<Vec3> middle_of_chain(std::uint32_t v) const {
+    Vec3 sum{0.0};
+    int count = 0;
+    table_.for_each_corner(v, [&](std::uint32_t c) {
+      const std::uint32_t w = table_.head(c);
+      if (is_feature_[w] == 0 || !is_crease(c)) return;
+      sum += at(w);
+      ++count;
+    });
+    if (count != 2) return std::nullopt;
+    return 0.5 * sum;
+  }
+
+  [[nodiscard]] bool is_crease(std::uint32_t c) const {
+    if (table_.across(c) == CornerTable::kNone) return true;
+    return !has_cosine(face_area_vector(table_, positions_, c / 3),
+                       face_area_vector(table_, positions_, table_.across(c) / 3), kCrease);
+  }
+
+  [[nodiscard]] std::optional<Vec3> middle_of_faces(std::uint32_t v) const {
+    Vec3 sum{0.0};
+    double weight = 0.0;
+    table_.for_each_corner(v, [&](std::uint32_t c) {
+      const double area = glm::length(face_area_vector(table_, positions_, c / 3));
+      sum += area / 3.0 * (at(v) + at(table_.head(c)) + at(table_.apex(c)));
+      weight += area;
+    });
+    if (!(weight > 0.0)) return std::nullopt;
+    return sum / weight;
+  }
+
+  void turn_edges(std::uint32_t v) {
+    const std::uint32_t first = table_.corner_of(v);
+    if (first == CornerTable::kNone) return;
+    std::uint32_t worst = CornerTable::kNone;
+    double most = kGain;
+    table_.for_each_corner(v, [&](std::uint32_t c) {
+      if (table_.across(c) == CornerTable::kNone || !is_one_side(c)) return;
+      const double gain = gain_of_turning(c);
+      if (gain <= most || !table_.is_flip_ok(c)) return;
+      most = gain;
+      worst = c;
+    });
+    if (worst != CornerTable::kNone) table_.flip(worst);
+  }
+
+  /// Where relaxing did not open a fold or a small angle, the vertex goes.
+  void mend(std::uint32_t v) {
+    if (table_.corner_of(v) == CornerTable::kNone || smallest_angle(v, at(v)) >= kSmallAngle)
+      return;
+    double best = kSmallAngle;
+    std::uint32_t into = CornerTable::kNone;
+    table_.for_each_corner(v, [&](std::uint32_t c) {
+      if (is_feature_[v] > is_feature_[table_.head(c)] || !table_.is_collapse_ok(c)) return;
+      const double angle = angle_after_collapse(c);
+      if (angle <= best) return;
+      best = angle;
+      into = c;
+    });
+    if (into != CornerTable::kNone) table_.collapse(into);
+  }
+
+  /// The smallest angle of the faces around the half-edge's vertex after it moved into the head; -1
+  /// if one looks the wrong way.
+  [[nodiscard]] double angle_after_collapse(std::uint32_t corner) const {
+    const std::uint32_t v = table_.vertex(corner), target = table_.head(corner);
+    double smallest = 1.0;
+    table_.for_each_corner(v, [&](std::uint32_t c) {
+      const std::uint32_t p = table_.head(c), q = table_.apex(c);
+      if (p == target || q == target) return;
+      const Vec3 area = area_vector(at(target), at(p), at(q));
+      const bool is_right = sides_.may_face(v, area) && sides_.may_face(target, area);
+      smallest =
+          std::min(smallest, is_right ? sine_of_smallest_angle(at(target), at(p), at(q)) : -1.0);
+    });
+    return smallest;
+  }
+
+  /// Whether the faces of an edge, and those after turning it, all look the same way.
+  [[nodiscard]] bool is_one_side(std::uint32_t c) const {
+    const Vec3 &a = at(table_.vertex(c)), &b = at(table_.head(c)), &x = at(table_.apex(c)),
+               &y = at(table_.apex(table_.across(c)));
+    const Vec3 old_x = area_vector(a, b, x), old_y = area_vector(b, a, y);
+    const Vec3 new_a = area_vector(a, y, x), new_b = area_vector(b, x, y);
+    return has_cosine(old_x, old_y, kOneSide) && has_cosine(new_a, new_b, kOneSide) &&
+           has_cosine(new_a, old_x, kOneSide);
+  }
+
+  [[nodiscard]] double gain_of_turning(std::uint32_t c) const {
+    const Vec3 &a = at(table_.vertex(c)), &b = at(table_.head(c)), &x = at(table_.apex(c)),
+               &y = at(table_.apex(table_.across(c)));
+    return std::min(sine_of_smallest_angle(a, y, x), sine_of_smallest_angle(b, x, y)) -
+           std::min(sine_of_smallest_angle(a, b, x), sine_of_smallest_angle(b, a, y));
+  }
+
+  CornerTable& table_;
+  std::vector<Vec3>& positions_;
+  const std::vector<std::uint8_t>& is_feature_;
+  const VertexSides& sides_;
+};
+
+}  // namespace
+
+void relax_features(CornerTable& table, std::vector<Vec3>& positions,
+                    const std::vector<std::uint8_t>& is_feature, const VertexSides& sides) {
+  Relaxer(table, positions, is_feature, sides).run();
+}
+
+}  // namespace rangezip

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "core/base/geometry.h"
+#include "core/finish/corner_table.h"
+
+namespace rangezip {
+
+/// What is known of the surface at a vertex.
+struct VertexSides {
+  /// The place on the surface, or on the feature that the vertex belongs to, next to a target;
+  /// nothing where neither is known.
+  std::function<std::optional<Vec3>(std::uint32_t vertex, const Vec3& target)> place_on;
+  /// Whether a face at the vertex may look along `direction`, of any length: about as the surface,
+  /// or one of the sides of the feature, does. True where nothing is known.
+  std::function<bool(std::uint32_t vertex, const Vec3& direction)> may_face;
+};
+
+/// Evens out the triangles along features: vertices on an edge slide along it, vertices within two
+/// edges of one within their side, each towards the middle of its neighbours, as long as the
+/// smallest angle around it grows; angles of faces that look the wrong way count as negative, so
+/// folds open. Edges between faces of one side are turned where that makes the smallest angle grow.
+/// Corners stay, and so does what is farther away.
+/// Linear in what is near features. @param is_feature per vertex: 1 on an edge, 2 at a corner
+void relax_features(CornerTable& table, std::vector<Vec3>& positions,
+                    const std::vector<std::uint8_t>& is_feature, const VertexSides& sides);
+
+}  // namespace rangezip
