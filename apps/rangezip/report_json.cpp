@@ -93,6 +93,24 @@ Json mesh_of(const ReconstructReport& report) {
           {"self_intersections", report.self_intersections}};
 }
 
+Json json_of(const std::vector<Place>& places) {
+  Json list = Json::array();
+  for (const Place& place : places) {
+    list.push_back({{"center", {place.center.x, place.center.y, place.center.z}},
+                    {"radius", place.radius},
+                    {"count", place.points},
+                    {"area", place.area}});
+  }
+  return list;
+}
+
+Json uncovered_of(const CoverageReport& coverage) {
+  return {{"points", coverage.uncovered_points},
+          {"scattered_points", coverage.scattered_points},
+          {"area", coverage.uncovered_area},
+          {"places", json_of(coverage.uncovered)}};
+}
+
 Json stages_of(const std::vector<StageTime>& stages) {
   Json list = Json::array();
   for (const StageTime& stage : stages) {
@@ -131,7 +149,10 @@ Json json_of(const MeshRunReport& run) {
   if (report.commands.size() > report.views.size()) {
     json["finish"] = json_of(report.commands.back().finish);
   }
-  json["coverage"] = report.coverage;
+  json["coverage"] = report.coverage.share;
+  json["uncovered"] = uncovered_of(report.coverage);
+  json["unsupported"] = {{"area", report.coverage.unsupported_area},
+                         {"places", json_of(report.coverage.unsupported)}};
   json["mesh"] = mesh_of(report);
   json["dropped"] = dropped_of(report);
   json["stages"] = stages_of(run.stages);
