@@ -169,7 +169,8 @@ CASES = [
 
 # Judged in every case, also where nothing is demanded of them.
 ALSO_SHOWN = ['faces', 'genus', 'boundary_loops', 'accuracy_mean', 'accuracy_p95', 'completeness_p95',
-              'cloud_within_05', 'min_angle_lt10', 'cpu_seconds', 'peak_megabytes', 'long_loops', 'pixel_size']
+              'cloud_within_05', 'min_angle_lt10', 'cpu_seconds', 'peak_megabytes', 'long_loops',
+              'pixel_size']
 
 # Runs a command from a small process of its own: what is reported as the peak memory of a program
 # includes that of the process that started it.
@@ -190,7 +191,10 @@ class Bench:
         os.makedirs(args.out, exist_ok=True)
 
     def path(self, name, suffix):
-        return os.path.join(self.args.out, name.replace(' ', '_').replace('.', '').replace(',', '').replace('%', '') + suffix)
+        plain = name.replace(' ', '_')
+        for character in '.,%':
+            plain = plain.replace(character, '')
+        return os.path.join(self.args.out, plain + suffix)
 
     def prepare(self, case):
         """The input file, and the truth and the cloud to judge by (or None)."""
@@ -281,6 +285,12 @@ class Bench:
         return missed
 
 
+def load_judge(shared):
+    sys.path.insert(0, os.path.join(shared, 'eval'))
+    __import__('mesh_quality')
+    __import__('sample')
+
+
 def read_any(path):
     return sys.modules['mesh_quality'].read_any(path)
 
@@ -344,9 +354,7 @@ def main():
         if not os.path.exists(needed):
             print('run.py: %s is not there' % needed, file=sys.stderr)
             return 2
-    sys.path.insert(0, os.path.join(args.shared, 'eval'))
-    __import__('mesh_quality')
-    __import__('sample')
+    load_judge(args.shared)
     bench = Bench(args)
     print('`rangezip mesh INPUT -o OUT.ply`, with the options that stand beside the input\n')
     print('| case | input | figure | must be | is | reached |')
