@@ -1,6 +1,8 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -59,6 +61,26 @@ void check_outputs(const MeshOptions& options) {
   }
 }
 
+std::string places_text(std::span<const Place> places, double area) {
+  const Place& largest = places.front();
+  return fmt::format("{} {}, area {:.4g}; largest at ({:.4g}, {:.4g}, {:.4g}), radius {:.4g}",
+                     places.size(), places.size() == 1 ? "place" : "places", area, largest.center.x,
+                     largest.center.y, largest.center.z, largest.radius);
+}
+
+void print_coverage(Console& console, const CoverageReport& coverage) {
+  console.print(
+      fmt::format("coverage  {:.2f} % of the input within a pixel size", 100.0 * coverage.share));
+  if (!coverage.uncovered.empty()) {
+    console.print(
+        fmt::format("missing   {}", places_text(coverage.uncovered, coverage.uncovered_area)));
+  }
+  if (!coverage.unsupported.empty()) {
+    console.print(
+        fmt::format("no data   {}", places_text(coverage.unsupported, coverage.unsupported_area)));
+  }
+}
+
 void print_summary(Console& console, const MeshOptions& options, const Scene& scene,
                    const ReconstructReport& report, const StageTime& total) {
   console.print(fmt::format("input     {}", amount_text(scene)));
@@ -66,8 +88,7 @@ void print_summary(Console& console, const MeshOptions& options, const Scene& sc
                             report.views.size(), report.views.size() - report.planned_views,
                             report.pixel_size));
   console.print(fmt::format("mesh      {}", topology_text(report.mesh)));
-  console.print(
-      fmt::format("coverage  {:.2f} % of the input within a pixel size", 100.0 * report.coverage));
+  print_coverage(console, report.coverage);
   console.print(fmt::format("written   {} ({:.1f} s, {:.1f} s of processor time)",
                             options.output.string(), total.seconds, total.cpu_seconds));
 }

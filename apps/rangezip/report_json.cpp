@@ -44,6 +44,7 @@ Json json_of(const StitchReport& stitch) {
 Json json_of(const FinishReport& finish) {
   return {{"self_intersections_cut", finish.self_intersections_cut},
           {"bridged_loops", finish.bridged_loops},
+          {"cut_handles", finish.cut_handles},
           {"filled_holes", finish.filled_holes},
           {"filled_faces", finish.filled_faces},
           {"open_loops", finish.open_loops},
@@ -92,6 +93,24 @@ Json mesh_of(const ReconstructReport& report) {
           {"self_intersections", report.self_intersections}};
 }
 
+Json json_of(const std::vector<Place>& places) {
+  Json list = Json::array();
+  for (const Place& place : places) {
+    list.push_back({{"center", {place.center.x, place.center.y, place.center.z}},
+                    {"radius", place.radius},
+                    {"count", place.points},
+                    {"area", place.area}});
+  }
+  return list;
+}
+
+Json uncovered_of(const CoverageReport& coverage) {
+  return {{"points", coverage.uncovered_points},
+          {"scattered_points", coverage.scattered_points},
+          {"area", coverage.uncovered_area},
+          {"places", json_of(coverage.uncovered)}};
+}
+
 Json stages_of(const std::vector<StageTime>& stages) {
   Json list = Json::array();
   for (const StageTime& stage : stages) {
@@ -130,7 +149,10 @@ Json json_of(const MeshRunReport& run) {
   if (report.commands.size() > report.views.size()) {
     json["finish"] = json_of(report.commands.back().finish);
   }
-  json["coverage"] = report.coverage;
+  json["coverage"] = report.coverage.share;
+  json["uncovered"] = uncovered_of(report.coverage);
+  json["unsupported"] = {{"area", report.coverage.unsupported_area},
+                         {"places", json_of(report.coverage.unsupported)}};
   json["mesh"] = mesh_of(report);
   json["dropped"] = dropped_of(report);
   json["stages"] = stages_of(run.stages);

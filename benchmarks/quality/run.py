@@ -16,6 +16,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 import boundary_check
+import shapes
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.normpath(os.path.join(HERE, '../..'))
@@ -56,25 +57,52 @@ class Sampled:
 
 
 @dataclass
+class Made:
+    """A body of shapes.py and its cloud, lengths in the pixel side that is chosen for it."""
+    shape: str
+
+    def text(self):
+        return self.shape
+
+
+@dataclass
 class Case:
     name: str
-    source: object      # a path below shared/data, or Sampled
+    source: object      # a path below shared/data, Sampled, or Made
     truth: str = None   # a path below shared/data
     cloud: bool = True  # judge against the input as a cloud
     options: list = field(default_factory=list)  # of rangezip mesh
     bounds: list = field(default_factory=list)
 
 
-CLEAN = [Bound('components', '==', 1), Bound('nonmanifold_edges', '==', 0),
-         Bound('nonmanifold_vertices', '==', 0), Bound('self_intersecting_pairs', '==', 0),
-         Bound('misoriented_edges', '==', 0)]
+MANIFOLD = [Bound('nonmanifold_edges', '==', 0), Bound('nonmanifold_vertices', '==', 0),
+            Bound('self_intersecting_pairs', '==', 0), Bound('misoriented_edges', '==', 0)]
+CLEAN = [Bound('components', '==', 1)] + MANIFOLD
 CLOSED = [Bound('boundary_edges', '==', 0)]
 GOOD_ANGLES = [Bound('min_angle_p50', '>=', 50.0), Bound('min_angle_lt30', '<=', 0.005),
                Bound('min_angle_lt10', '==', 0.0)]
 
 
+RIGHT_SIDE_OUT = [Bound('inverted_share', '<=', 0.0002, True)]
+
+
 def cost(seconds, megabytes):
     return [Bound('cpu_seconds', '<=', seconds), Bound('peak_megabytes', '<=', megabytes)]
+
+
+def made(shape, *bounds):
+    return Case(shape, Made(shape), bounds=sum(bounds, MANIFOLD))
+
+
+def body(shape, genus, *bounds):
+    """One closed body."""
+    return made(shape, [Bound('components', '==', 1), Bound('genus', '==', genus)], CLOSED, *bounds)
+
+
+def at_triangles(name, mesh, seed, triangles):
+    """As close to the truth as the truth itself with so many triangles."""
+    return Case(name, Sampled(mesh, 400_000, seed), options=['--triangles', str(triangles)],
+                bounds=CLEAN + CLOSED + [Bound('over_decimated', '<=', 1.05)])
 
 
 CASES = [
@@ -116,11 +144,33 @@ CASES = [
     Case('Laurana 400 K', Sampled('mesh/Laurana50k.ply', 400_000, 1), bounds=CLEAN + cost(6, 300)),
     Case('igea 1.4 M', Sampled('mesh/igea.ply', 1_400_000, 5), bounds=CLEAN + CLOSED + cost(20, 700)),
     Case('dragon 1.4 M', Sampled('range/dragon_vrip_res2.ply', 1_400_000, 6), bounds=CLEAN + cost(20, 700)),
+    at_triangles('igea, quadrics', 'mesh/igea.ply', 3, 60_000),
+    at_triangles('rocker-arm, quadrics', 'mesh/rocker-arm.obj', 21, 10_000),
+    at_triangles('fandisk, quadrics', 'mesh/fandisk.obj', 22, 6_000),
+    at_triangles('mechpart, quadrics', 'mesh/mechpart_recon.ply', 23, 7_000),
+    at_triangles('bracket, quadrics', 'cad/featuretype.STL', 24, 1_700),
+    Case('cactus', 'seed/cactus.xyz', bounds=CLEAN),
+    Case('distcap', 'seed/distcap.xyz', bounds=CLEAN),
+    # Bodies made by code (shapes.py): the topology, and what is thin or close from 2 pixel sides on.
+    body('sphere', 0, RIGHT_SIDE_OUT), body('torus', 1, RIGHT_SIDE_OUT), body('trefoil', 1, RIGHT_SIDE_OUT),
+    made('bowl', [Bound('components', '==', 1), Bound('boundary_loops', '==', 1)], RIGHT_SIDE_OUT),
+    made('plate 0.3'), made('plate 0.9'), body('plate 2', 0), body('plate 3', 0), body('plate 5', 0),
+    made('shell 0.3'), made('shell 0.9'), body('shell 2', 0), body('shell 3', 0), body('shell 5', 0),
+    body('cube', 0, RIGHT_SIDE_OUT),
+    body('pocket 0.5', 0), body('pocket 1', 0), body('pocket 2', 0),
+    made('spheres 0'), made('spheres 0.3'), made('spheres 0.8'),
+    made('spheres 2', CLOSED, [Bound('components', '==', 2), Bound('euler', '==', 4)]),
+    made('spheres 3', CLOSED, [Bound('components', '==', 2), Bound('euler', '==', 4)]),
+    body('noisy 0.05', 1, RIGHT_SIDE_OUT), body('noisy 0.1', 1, RIGHT_SIDE_OUT), body('noisy 0.2', 1, RIGHT_SIDE_OUT),
+    body('contours', 1),
+    body('density', 0), body('density-bumps', 0, [Bound('dense_over_sparse', '<=', 0.5)]),
+    made('fingers', [Bound('components', '==', 1), Bound('false_handles', '==', 0)]),
 ]
 
 # Judged in every case, also where nothing is demanded of them.
 ALSO_SHOWN = ['faces', 'genus', 'boundary_loops', 'accuracy_mean', 'accuracy_p95', 'completeness_p95',
-              'cloud_within_05', 'min_angle_lt10', 'cpu_seconds', 'peak_megabytes', 'long_loops']
+              'cloud_within_05', 'min_angle_lt10', 'cpu_seconds', 'peak_megabytes', 'long_loops',
+              'pixel_size']
 
 # Runs a command from a small process of its own: what is reported as the peak memory of a program
 # includes that of the process that started it.
@@ -141,7 +191,10 @@ class Bench:
         os.makedirs(args.out, exist_ok=True)
 
     def path(self, name, suffix):
-        return os.path.join(self.args.out, name.replace(' ', '_').replace('.', '').replace(',', '').replace('%', '') + suffix)
+        plain = name.replace(' ', '_')
+        for character in '.,%':
+            plain = plain.replace(character, '')
+        return os.path.join(self.args.out, plain + suffix)
 
     def prepare(self, case):
         """The input file, and the truth and the cloud to judge by (or None)."""
@@ -153,6 +206,13 @@ class Bench:
                                 str(case.source.points), '--seed', str(case.source.seed),
                                 '--noise', str(case.source.noise), '--truth', truth],
                                check=True)
+            return cloud, truth, cloud
+        if isinstance(case.source, Made):
+            cloud, truth = self.path(case.name, '_in.ply'), self.path(case.name, '_truth.ply')
+            shape = shapes.make(case.source.shape)
+            write_ply = sys.modules['sample'].write_ply
+            write_ply(cloud, shape.points)
+            write_ply(truth, shape.vertices, shape.faces)
             return cloud, truth, cloud
         source = os.path.join(self.data, case.source)
         truth = os.path.join(self.data, case.truth) if case.truth else None
@@ -184,9 +244,19 @@ class Bench:
         command += ['--cloud', cloud] if cloud else []
         judged = subprocess.run(command, check=True, capture_output=True, text=True)
         figures.update(json.loads(judged.stdout))
-        vertices, faces = sys.modules['mesh_quality'].read_any(out)
-        points = sys.modules['mesh_quality'].read_any(cloud)[0] if cloud else np.zeros((0, 3))
+        vertices, faces = read_any(out)
+        points = read_any(cloud)[0] if cloud else np.zeros((0, 3))
         figures.update(boundary_check.check(vertices, faces, points, report['pixel_size']))
+        figures['pixel_size'] = report['pixel_size']
+        if truth:
+            figures['inverted_share'] = min(figures['flipped_share'], 1 - figures['flipped_share'])
+        if isinstance(case.source, Made):
+            shape = shapes.make(case.source.shape)
+            figures['false_handles'] = false_handles(figures['genus'], shape.genus)
+            if shape.dense_side is not None:
+                figures['dense_over_sparse'] = dense_over_sparse((vertices, faces), shape)
+        if any(bound.figure == 'over_decimated' for bound in case.bounds):
+            figures['over_decimated'] = over_decimated(figures, read_any(truth))
         with open(self.path(case.name, '_figures.json'), 'w') as file:
             json.dump(figures, file, indent=1)
         return figures
@@ -215,6 +285,40 @@ class Bench:
         return missed
 
 
+def load_judge(shared):
+    sys.path.insert(0, os.path.join(shared, 'eval'))
+    __import__('mesh_quality')
+    __import__('sample')
+
+
+def read_any(path):
+    return sys.modules['mesh_quality'].read_any(path)
+
+
+def false_handles(genus, known):
+    return None if genus is None else genus - known
+
+
+def over_decimated(figures, truth):
+    """RMS distance to the truth, over that of the truth decimated by quadrics to as many triangles."""
+    import open3d
+    mesh = open3d.geometry.TriangleMesh(open3d.utility.Vector3dVector(truth[0]),
+                                        open3d.utility.Vector3iVector(truth[1]))
+    fewer = mesh.simplify_quadric_decimation(figures['faces'])
+    decimated = sys.modules['mesh_quality'].measure(np.asarray(fewer.vertices), np.asarray(fewer.triangles).astype(int),
+                                                    truth=truth, do_self=False)
+    return figures['accuracy_rms'] / max(decimated['accuracy_rms'], 1e-12)
+
+
+def dense_over_sparse(mesh, shape):
+    """RMS distance to the truth on the densely sampled side, over that on the other one."""
+    surface = sys.modules['mesh_quality'].Surface
+    places, _ = surface(*mesh, np.zeros(3), 1.0).sample(200_000, 1)
+    distance, _ = surface(shape.vertices, shape.faces, np.zeros(3), 1.0).closest(places)
+    is_dense = places @ shape.dense_side > 0
+    return float(np.sqrt((distance[is_dense] ** 2).mean() / (distance[~is_dense] ** 2).mean()))
+
+
 def placed_scans(conf):
     """The points of all scans of a Stanford .conf in the common frame: transpose(R(q)) p + t."""
     clouds = []
@@ -222,7 +326,7 @@ def placed_scans(conf):
         word = line.split()
         if not word or word[0] != 'bmesh':
             continue
-        points, _ = sys.modules['mesh_quality'].read_any(os.path.join(os.path.dirname(conf), word[1]))
+        points, _ = read_any(os.path.join(os.path.dirname(conf), word[1]))
         tx, ty, tz, x, y, z, w = map(float, word[2:9])
         norm = np.sqrt(x * x + y * y + z * z + w * w)
         x, y, z, w = x / norm, y / norm, z / norm, w / norm
@@ -250,8 +354,7 @@ def main():
         if not os.path.exists(needed):
             print('run.py: %s is not there' % needed, file=sys.stderr)
             return 2
-    sys.path.insert(0, os.path.join(args.shared, 'eval'))
-    __import__('mesh_quality')
+    load_judge(args.shared)
     bench = Bench(args)
     print('`rangezip mesh INPUT -o OUT.ply`, with the options that stand beside the input\n')
     print('| case | input | figure | must be | is | reached |')

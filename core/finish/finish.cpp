@@ -17,6 +17,7 @@
 #include "core/finish/repair.h"
 #include "core/finish/self_intersection.h"
 #include "core/finish/snap_features.h"
+#include "core/finish/thin_handles.h"
 #include "core/finish/untangle.h"
 
 namespace rangezip {
@@ -28,6 +29,10 @@ constexpr double kPointCell = 0.7;
 constexpr double kThinnedFrom = 2.4;
 /// Parts along each side of a cell, with a mean point each.
 constexpr int kThinnedParts = 2;
+/// In h: girth of handles that no object has, since scans resolve what is 2 h thick (over 6 h
+/// around).
+constexpr double kThinHandle = 5.5;
+constexpr int kHandleRounds = 6;  ///< of {cut, close}: paths that touch are cut one by one
 /// In h: how far beyond the mesh points may matter.
 constexpr double kRegionMargin = 4.0;
 
@@ -43,6 +48,17 @@ Box region_of(const TriangleMesh& mesh, double margin) {
   region.lower -= Vec3(margin);
   region.upper += Vec3(margin);
   return region;
+}
+
+/// Cuts handles that seams made where sheets come close, and closes the holes.
+void remove_thin_handles(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
+                         FinishReport& report, const Progress& progress) {
+  for (int round = 0; round < kHandleRounds; ++round) {
+    const std::size_t cut = cut_thin_handles(mesh, kThinHandle * options.pixel_size);
+    if (cut == 0) return;
+    report.cut_handles += cut;
+    repair(mesh, {}, cloud, options, report, progress);
+  }
 }
 
 /// After vertices of a clean mesh have moved: untangles faces that cross, and cuts out and closes
@@ -127,6 +143,7 @@ FinishResult finish(TriangleMesh mesh, std::span<const Vec3> cloud, const Finish
   const PointGrid points(cloud, region_of(mesh, kRegionMargin * h), kPointCell * h);
   clean_topology(mesh);
   repair(mesh, self_intersections(mesh), points, options, result.report, progress);
+  remove_thin_handles(mesh, points, options, result.report, progress);
   if (options.method == FinishMethod::full) improve(mesh, points, options, result.report, progress);
   remove_unused_vertices(mesh);
   const CornerTable table(mesh.triangles, mesh.positions.size());

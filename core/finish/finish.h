@@ -30,6 +30,7 @@ struct FinishReport {
   std::size_t self_intersections_cut = 0;  ///< faces removed because they crossed others
   std::size_t untangled_pairs = 0;         ///< of faces that crossed after vertices had moved
   std::size_t bridged_loops = 0;
+  std::size_t cut_handles = 0;  ///< thinner than what scans resolve
   std::size_t filled_holes = 0;
   std::size_t filled_faces = 0;
   std::size_t open_loops = 0;  ///< boundary loops left

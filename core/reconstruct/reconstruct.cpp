@@ -8,7 +8,6 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/finish/self_intersection.h"
-#include "core/mesh/coverage.h"
 #include "core/plan/open_sheet.h"
 #include "core/plan/spacing.h"
 #include "core/plan/view_planner.h"
@@ -182,7 +181,7 @@ class Run {
     const auto mesh = session_.mesh();
     result_.report.mesh = report_mesh(*mesh);
     result_.report.self_intersections = self_intersections(*mesh).size();
-    result_.report.coverage = coverage_of(samples_, *mesh, recipe_.pixel_size);
+    result_.report.coverage = report_coverage(samples_, *mesh, recipe_.pixel_size);
     result_.mesh = *mesh;
     clock_.finish("check");
     progress_.at("done", 1.0);

@@ -9,6 +9,7 @@
 #include "core/mesh/mesh_report.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/raster/rasterizer.h"
+#include "core/reconstruct/coverage_report.h"
 #include "core/scene/scene.h"
 #include "core/session/command.h"
 #include "core/session/session.h"
@@ -43,7 +44,7 @@ struct ReconstructReport {
   double planned_coverage = 0.0;  ///< share of the points that the planned views see
   std::vector<CommandReport> commands;
   std::vector<StageTime> stages;
-  double coverage = 0.0;  ///< share of the cloud with a face within pixel_size
+  CoverageReport coverage;
   MeshReport mesh;
   std::size_t self_intersections = 0;  ///< pairs
 };

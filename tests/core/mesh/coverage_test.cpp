@@ -15,16 +15,19 @@ TriangleMesh unit_square() {
           .triangles = {{0, 1, 2}, {0, 2, 3}}};
 }
 
+using Flags = std::vector<std::uint8_t>;
+
 }  // namespace
 
-TEST_CASE("coverage_of counts a point exactly at the distance and none beyond it", "[mesh]") {
+TEST_CASE("covered_points takes a point exactly at the distance and none beyond it", "[mesh]") {
   const TriangleMesh square = unit_square();
-  CHECK(coverage_of(std::vector<Vec3>{{0.5, 0.5, 0.25}}, square, 0.25) == 1.0);
-  CHECK(coverage_of(std::vector<Vec3>{{0.5, 0.5, 0.2500001}}, square, 0.25) == 0.0);
-  CHECK(coverage_of(std::vector<Vec3>{{1.25, 0.5, 0}, {1.26, 0.5, 0}}, square, 0.25) == 0.5);
+  CHECK(covered_points(std::vector<Vec3>{{0.5, 0.5, 0.25}}, square, 0.25) == Flags{1});
+  CHECK(covered_points(std::vector<Vec3>{{0.5, 0.5, 0.2500001}}, square, 0.25) == Flags{0});
+  CHECK(covered_points(std::vector<Vec3>{{1.25, 0.5, 0}, {1.26, 0.5, 0}}, square, 0.25) ==
+        Flags{1, 0});
 }
 
-TEST_CASE("coverage_of agrees with the distance to every face", "[mesh]") {
+TEST_CASE("covered_points agrees with the distance to every face", "[mesh]") {
   const TriangleMesh mesh = shapes::to_mesh(shapes::torus(1.0, 0.4, 32));
   const auto seed = GENERATE(range(1, 4));
   CAPTURE(seed);
@@ -34,7 +37,7 @@ TEST_CASE("coverage_of agrees with the distance to every face", "[mesh]") {
     p = {random.between(-1.6, 1.6), random.between(-1.6, 1.6), random.between(-0.6, 0.6)};
   }
   const double distance = random.between(0.02, 0.3);
-  std::size_t near = 0;
+  Flags near;
   for (const Vec3& p : points) {
     bool found = false;
     for (const Triangle& t : mesh.triangles) {
@@ -42,21 +45,20 @@ TEST_CASE("coverage_of agrees with the distance to every face", "[mesh]") {
                                                mesh.positions[t[2]]);
       found = found || glm::dot(p - q, p - q) <= distance * distance;
     }
-    near += found ? 1U : 0U;
+    near.push_back(found ? 1 : 0);
   }
-  CHECK(coverage_of(points, mesh, distance) ==
-        static_cast<double>(near) / static_cast<double>(points.size()));
+  CHECK(covered_points(points, mesh, distance) == near);
 }
 
-TEST_CASE("coverage_of is whole for no points and nothing for no mesh", "[mesh]") {
-  CHECK(coverage_of({}, unit_square(), 1.0) == 1.0);
-  CHECK(coverage_of(std::vector<Vec3>{{0, 0, 0}}, TriangleMesh{}, 1.0) == 0.0);
+TEST_CASE("covered_points is empty for no points and nothing for no mesh", "[mesh]") {
+  CHECK(covered_points({}, unit_square(), 1.0).empty());
+  CHECK(covered_points(std::vector<Vec3>{{0, 0, 0}}, TriangleMesh{}, 1.0) == Flags{0});
 }
 
-TEST_CASE("coverage_of refuses a distance that is no length", "[mesh]") {
+TEST_CASE("covered_points refuses a distance that is no length", "[mesh]") {
   for (const double distance : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
                                 std::numeric_limits<double>::infinity()}) {
     CAPTURE(distance);
-    CHECK_THROWS_AS(coverage_of({}, unit_square(), distance), InvalidArgument);
+    CHECK_THROWS_AS(covered_points({}, unit_square(), distance), InvalidArgument);
   }
 }

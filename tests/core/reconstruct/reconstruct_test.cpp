@@ -63,7 +63,7 @@ TEST_CASE("a sampled sphere becomes one closed sphere, outside out", "[reconstru
   CHECK(result.report.mesh.components == 1);
   CHECK(result.report.mesh.boundary_edges == 0);
   CHECK(result.report.mesh.euler == 2);
-  CHECK(result.report.coverage > 0.999);
+  CHECK(result.report.coverage.share > 0.999);
   // No vertex leaves the sheet of its pixel: where random points leave a gap of a pixel, a fit is
   // an extrapolation, but never by more than a pixel side.
   CHECK(distance_from_unit_sphere(result.mesh) < 1.0 * result.report.pixel_size);
@@ -100,7 +100,7 @@ TEST_CASE("a hilly terrain becomes one open sheet that faces up", "[reconstruct]
   CHECK(result.report.mesh.components == 1);
   CHECK(result.report.mesh.boundary_loops == 1);
   CHECK(result.report.mesh.euler == 1);
-  CHECK(result.report.coverage > 0.99);
+  CHECK(result.report.coverage.share > 0.99);
   for (const Triangle& t : result.mesh.triangles) {
     REQUIRE(area_vector(result.mesh.positions[t[0]], result.mesh.positions[t[1]],
                         result.mesh.positions[t[2]])
@@ -157,7 +157,7 @@ TEST_CASE("the paper's own method closes a sphere as well", "[reconstruct]") {
                                        {.method = ReconstructMethod::paper});
   check_clean(result);
   CHECK(result.report.mesh.components == 1);
-  CHECK(result.report.coverage > 0.99);
+  CHECK(result.report.coverage.share > 0.99);
   // The nearest sample of a pixel lies up to a pixel side in front of the surface.
   CHECK(distance_from_unit_sphere(result.mesh) < 1.5 * result.report.pixel_size);
 }

@@ -1,0 +1,338 @@
+#include "core/finish/thin_handles.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <queue>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "core/base/parallel.h"
+#include "core/finish/boundary_loops.h"
+#include "core/finish/components.h"
+#include "core/finish/corner_table.h"
+
+namespace rangezip {
+namespace {
+
+constexpr std::uint32_t kNone = CornerTable::kNone;
+
+/// A well mixed word for each number (splitmix64): sums of different ones never cancel.
+std::uint64_t word_of(std::uint64_t number) {
+  std::uint64_t z = (number + 1) * 0x9e37'79b9'7f4a'7c15U;
+  z = (z ^ (z >> 30U)) * 0xbf58'476d'1ce4'e5b9U;
+  z = (z ^ (z >> 27U)) * 0x94d0'49bb'1331'11ebU;
+  return z ^ (z >> 31U);
+}
+
+/// A word for each edge, such that those along a closed path add up (by exclusive or) to 0 if and
+/// only if the path parts the surface whose boundary loops are filled: 0 around every face, every
+/// hole, and along the edges of a tree, so that the others follow from those few that close the
+/// handles [Busaryev et al. 2012].
+class EdgeWords {
+ public:
+  explicit EdgeWords(const CornerTable& table) : table_(table) {
+    number_faces_and_holes();
+    grow_vertex_tree();
+    grow_face_tree();
+    deduce_words();
+  }
+
+  [[nodiscard]] std::uint64_t operator[](std::uint32_t corner) const {
+    return words_[edge_name(corner)];
+  }
+
+ private:
+  /// The one of the two half-edges that stands for the edge.
+  [[nodiscard]] std::uint32_t edge_name(std::uint32_t corner) const {
+    return std::min(corner, table_.across(corner));
+  }
+
+  /// Holes are numbered after the faces.
+  void number_faces_and_holes() {
+    const auto faces = static_cast<std::uint32_t>(table_.face_count());
+    beyond_.resize(table_.corner_count());
+    for (std::uint32_t c = 0; c < table_.corner_count(); ++c) {
+      beyond_[c] = table_.across(c) == kNone ? kNone : table_.across(c) / 3;
+    }
+    holes_ = boundary_loops(table_);
+    for (std::uint32_t l = 0; l < holes_.size(); ++l) {
+      for (const std::uint32_t c : holes_[l].corners)
+        beyond_[c] = faces + l;
+    }
+  }
+
+  void grow_vertex_tree() {
+    is_in_tree_.assign(table_.corner_count(), 0);
+    std::vector<std::uint8_t> is_reached(table_.vertex_count(), 0);
+    std::vector<std::uint32_t> queue;
+    for (std::uint32_t root = 0; root < table_.vertex_count(); ++root) {
+      if (is_reached[root] != 0 || table_.corner_of(root) == kNone) continue;
+      is_reached[root] = 1;
+      queue.assign(1, root);
+      const auto reach = [&](std::uint32_t vertex, std::uint32_t corner) {
+        if (is_reached[vertex] != 0) return;
+        is_reached[vertex] = 1;
+        is_in_tree_[edge_name(corner)] = 1;
+        queue.push_back(vertex);
+      };
+      for (std::size_t i = 0; i < queue.size(); ++i) {
+        table_.for_each_corner(queue[i], [&](std::uint32_t c) {
+          reach(table_.head(c), c);
+          reach(table_.apex(c), CornerTable::previous(c));
+        });
+      }
+    }
+  }
+
+  /// Calls visit(half-edge, what lies beyond) for each edge around a face or hole.
+  template <class Visit>
+  void for_each_edge_of(std::uint32_t node, Visit visit) const {
+    const auto faces = static_cast<std::uint32_t>(table_.face_count());
+    if (node < faces) {
+      for (std::uint32_t c = 3 * node; c < 3 * node + 3; ++c)
+        visit(c, beyond_[c]);
+    } else {
+      for (const std::uint32_t c : holes_[node - faces].corners)
+        visit(c, c / 3);
+    }
+  }
+
+  /// Over the edges that the other tree has not.
+  void grow_face_tree() {
+    const std::size_t count = table_.face_count() + holes_.size();
+    edge_to_parent_.assign(count, kNone);
+    parent_.assign(count, kNone);
+    for (std::uint32_t root = 0; root < count; ++root) {
+      if (parent_[root] != kNone) continue;
+      parent_[root] = root;
+      const std::size_t begin = order_.size();
+      order_.push_back(root);
+      for (std::size_t i = begin; i < order_.size(); ++i) {
+        for_each_edge_of(order_[i], [&](std::uint32_t c, std::uint32_t next) {
+          if (is_in_tree_[edge_name(c)] != 0 || parent_[next] != kNone) return;
+          parent_[next] = order_[i];
+          edge_to_parent_[next] = edge_name(c);
+          order_.push_back(next);
+        });
+      }
+    }
+  }
+
+  void deduce_words() {
+    words_.assign(table_.corner_count(), 0);
+    std::vector<std::uint64_t> sums(parent_.size(), 0);  // around each face and hole, so far
+    for (std::uint32_t c = 0; c < table_.corner_count(); ++c) {
+      if (edge_name(c) != c || is_in_tree_[c] != 0) continue;
+      const std::uint32_t one = c / 3, other = beyond_[c];
+      if (edge_to_parent_[one] == c || edge_to_parent_[other] == c) continue;
+      words_[c] = word_of(c);
+      sums[one] ^= words_[c];
+      sums[other] ^= words_[c];
+    }
+    for (std::size_t i = order_.size(); i-- > 0;) {
+      const std::uint32_t node = order_[i];
+      if (edge_to_parent_[node] == kNone) continue;
+      words_[edge_to_parent_[node]] = sums[node];
+      sums[parent_[node]] ^= sums[node];
+    }
+  }
+
+  const CornerTable& table_;
+  std::vector<BoundaryLoop> holes_;
+  std::vector<std::uint32_t> beyond_;          ///< face or hole across each half-edge
+  std::vector<std::uint8_t> is_in_tree_;       ///< by edge name
+  std::vector<std::uint32_t> parent_;          ///< of each face and hole; a root's is itself
+  std::vector<std::uint32_t> edge_to_parent_;  ///< its name
+  std::vector<std::uint32_t> order_;           ///< parents before children
+  std::vector<std::uint64_t> words_;           ///< by edge name
+};
+
+/// A closed path along edges.
+struct Cycle {
+  double length = 0.0;
+  std::uint64_t word = 0;  ///< the sum along it
+  std::vector<std::uint32_t> vertices;
+
+  friend bool operator<(const Cycle& a, const Cycle& b) {
+    return std::tie(a.length, a.vertices) < std::tie(b.length, b.vertices);
+  }
+};
+
+/// Looks for closed paths through one vertex.
+class LocalSearch {
+ public:
+  LocalSearch(const TriangleMesh& mesh, const CornerTable& table, const EdgeWords& words)
+      : mesh_(mesh), table_(table), words_(words) {}
+
+  /// The shortest one that does not part the surface; longer than `max_length`, and without
+  /// vertices, if there is none up to that.
+  [[nodiscard]] Cycle shortest_through(std::uint32_t root, double max_length) const {
+    const Ways ways = ways_from(root, 0.5 * max_length);
+    Cycle best{.length = 2.0 * max_length};
+    std::pair<std::uint32_t, std::uint32_t> closing{kNone, kNone};
+    for (const auto& [a, way_a] : ways) {
+      for_each_edge(a, [&, from = a, &way = way_a](std::uint32_t b, std::uint32_t corner) {
+        const auto other = ways.find(b);
+        if (other == ways.end()) return;
+        const std::uint64_t word = way.word ^ other->second.word ^ words_[corner];
+        if (word == 0) return;
+        const double length = way.length + other->second.length + distance(from, b);
+        if (length > max_length || length >= best.length) return;
+        best.length = length;
+        best.word = word;
+        closing = {from, b};
+      });
+    }
+    if (closing.first != kNone) best.vertices = path(ways, closing.first, closing.second);
+    return best;
+  }
+
+ private:
+  /// The shortest way from the root to a vertex.
+  struct Way {
+    double length = 0.0;
+    std::uint32_t from = kNone;
+    std::uint64_t word = 0;
+  };
+  using Ways = std::map<std::uint32_t, Way>;
+
+  [[nodiscard]] double distance(std::uint32_t a, std::uint32_t b) const {
+    return glm::length(mesh_.positions[a] - mesh_.positions[b]);
+  }
+
+  template <class Visit>
+  void for_each_edge(std::uint32_t vertex, Visit visit) const {
+    table_.for_each_corner(vertex, [&](std::uint32_t c) {
+      visit(table_.head(c), c);
+      visit(table_.apex(c), CornerTable::previous(c));
+    });
+  }
+
+  [[nodiscard]] Ways ways_from(std::uint32_t root, double max_length) const {
+    using Entry = std::pair<double, std::uint32_t>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    Ways ways;
+    ways[root] = {};
+    queue.emplace(0.0, root);
+    while (!queue.empty()) {
+      const auto [length, v] = queue.top();
+      queue.pop();
+      const Way way = ways[v];
+      if (length > way.length) continue;
+      for_each_edge(v, [&, from = v](std::uint32_t w, std::uint32_t corner) {
+        const double longer = way.length + distance(from, w);
+        if (longer > max_length) return;
+        const auto known = ways.find(w);
+        if (known != ways.end() && known->second.length <= longer) return;
+        ways[w] = {longer, from, way.word ^ words_[corner]};
+        queue.emplace(longer, w);
+      });
+    }
+    return ways;
+  }
+
+  [[nodiscard]] static std::vector<std::uint32_t> path(const Ways& ways, std::uint32_t a,
+                                                       std::uint32_t b) {
+    std::vector<std::uint32_t> vertices;
+    for (std::uint32_t v = a; v != kNone; v = ways.at(v).from)
+      vertices.push_back(v);
+    for (std::uint32_t v = b; ways.at(v).from != kNone; v = ways.at(v).from)
+      vertices.push_back(v);
+    return vertices;
+  }
+
+  const TriangleMesh& mesh_;
+  const CornerTable& table_;
+  const EdgeWords& words_;
+};
+
+/// Paths that together part the surface have words that cancel: such a one is not to be cut.
+class IndependentWords {
+ public:
+  /// @return false if the word is a sum of those that are in
+  bool add(std::uint64_t word) {
+    for (const std::uint64_t other : words_)
+      word = std::min(word, word ^ other);
+    if (word == 0) return false;
+    words_.push_back(word);
+    return true;
+  }
+
+ private:
+  std::vector<std::uint64_t> words_;  ///< none has the highest bit of an earlier one
+};
+
+/// By the Euler number, with the holes filled.
+bool has_handles(const CornerTable& table) {
+  auto euler = static_cast<std::int64_t>(table.face_count() + boundary_loops(table).size());
+  for (std::uint32_t v = 0; v < table.vertex_count(); ++v)
+    euler += table.corner_of(v) != kNone ? 1 : 0;
+  for (std::uint32_t c = 0; c < table.corner_count(); ++c)
+    euler -= table.across(c) == kNone || table.names_inner_edge(c) ? 1 : 0;
+  const std::vector<std::uint32_t> component = components_of(table);
+  const std::int64_t components =
+      component.empty() ? 0 : 1 + *std::max_element(component.begin(), component.end());
+  return euler < 2 * components;
+}
+
+/// The shortest paths first. A path that parts nothing has an edge whose word is not 0, so only
+/// the ends of those are asked.
+std::vector<Cycle> short_cycles(const TriangleMesh& mesh, const CornerTable& table,
+                                double max_length) {
+  const EdgeWords words(table);
+  std::vector<std::uint8_t> is_asked(table.vertex_count(), 0);
+  for (std::uint32_t c = 0; c < table.corner_count(); ++c) {
+    if (words[c] != 0) is_asked[table.vertex(c)] = is_asked[table.head(c)] = 1;
+  }
+  std::vector<std::uint32_t> asked;
+  for (std::uint32_t v = 0; v < table.vertex_count(); ++v) {
+    if (is_asked[v] != 0) asked.push_back(v);
+  }
+  constexpr std::size_t kVerticesPerBlock = 256;
+  const LocalSearch search(mesh, table, words);
+  std::vector<Cycle> cycles(asked.size());
+  parallel_for(asked.size(), kVerticesPerBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      cycles[i] = search.shortest_through(asked[i], max_length);
+  });
+  std::erase_if(cycles, [&](const Cycle& cycle) { return cycle.vertices.empty(); });
+  std::sort(cycles.begin(), cycles.end());
+  return cycles;
+}
+
+}  // namespace
+
+std::size_t cut_thin_handles(TriangleMesh& mesh, double max_girth) {
+  const CornerTable table(mesh.triangles, mesh.positions.size());
+  if (!has_handles(table)) return 0;
+  std::vector<std::uint8_t> is_dropped(mesh.triangles.size(), 0);
+  std::vector<std::uint8_t> is_touched(mesh.positions.size(), 0);  // by an earlier cut
+  IndependentWords cut_words;
+  std::size_t cuts = 0;
+  for (const Cycle& cycle : short_cycles(mesh, table, max_girth)) {
+    if (std::any_of(cycle.vertices.begin(), cycle.vertices.end(),
+                    [&](std::uint32_t v) { return is_touched[v] != 0; })) {
+      continue;
+    }
+    if (!cut_words.add(cycle.word)) continue;
+    for (const std::uint32_t v : cycle.vertices) {
+      table.for_each_corner(v, [&](std::uint32_t c) {
+        is_dropped[c / 3] = 1;
+        for (const std::uint32_t corner : mesh.triangles[c / 3])
+          is_touched[corner] = 1;
+      });
+    }
+    ++cuts;
+  }
+  std::size_t kept = 0;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    if (is_dropped[f] == 0) mesh.triangles[kept++] = mesh.triangles[f];
+  }
+  mesh.triangles.resize(kept);
+  return cuts;
+}
+
+}  // namespace rangezip

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+
+#include "core/mesh/triangle_mesh.h"
+
+namespace rangezip {
+
+/// Cuts handles and tunnels that are narrower than what scans resolve: such a handle is made by a
+/// seam that joined two sheets where they come close, not by the object. Every edge gets a word,
+/// such that the words along a closed path cancel if it parts the surface [Busaryev et al. 2012];
+/// shortest paths around the few edges whose word is not 0 then find every path that is short and
+/// parts nothing. The faces around such a path go, which leaves holes to close; of paths that
+/// touch, or that would part the surface together, the shortest is cut. Boundary loops count as if
+/// filled: they make no handle. O(faces) and the surroundings of those edges, a few rows of faces
+/// for each handle.
+/// @param max_girth model units; longer paths stay
+/// @return how many paths were cut; call it again after closing the holes until none is
+/// @pre oriented and manifold
+std::size_t cut_thin_handles(TriangleMesh& mesh, double max_girth);
+
+}  // namespace rangezip

@@ -1,0 +1,115 @@
+#include "core/reconstruct/coverage_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "core/base/parallel.h"
+#include "core/finish/point_grid.h"
+#include "core/mesh/coverage.h"
+
+namespace rangezip {
+
+namespace {
+
+/// In pixel sides: how far apart points of one place may lie.
+constexpr double kReach = 2.0;
+/// Fewer points together are outliers.
+constexpr std::size_t kMinPoints = 10;
+/// A smaller place of faces is closed over what any cloud leaves out here and there.
+constexpr std::size_t kMinFaces = 10;
+/// In pixel sides or spacings. Of evenly spread points one in a thousand has no other within this.
+constexpr double kSupportRadius = 1.5;
+
+double area_of_face(const TriangleMesh& mesh, const Triangle& t) {
+  return 0.5 *
+         glm::length(area_vector(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]));
+}
+
+double area_of_mesh(const TriangleMesh& mesh) {
+  double area = 0.0;
+  for (const Triangle& t : mesh.triangles)
+    area += area_of_face(mesh, t);
+  return area;
+}
+
+/// Drops the places with fewer points, which stand last; the number of points in them.
+std::size_t drop_scattered(std::vector<Place>& places, std::size_t min_points) {
+  std::size_t dropped = 0;
+  while (!places.empty() && places.back().points < min_points) {
+    dropped += places.back().points;
+    places.pop_back();
+  }
+  return dropped;
+}
+
+double total_area(std::span<const Place> places) {
+  double area = 0.0;
+  for (const Place& place : places)
+    area += place.area;
+  return area;
+}
+
+void report_uncovered(std::span<const Vec3> points, const std::vector<std::uint8_t>& is_covered,
+                      double area_per_point, double pixel_size, CoverageReport& report) {
+  std::vector<Vec3> uncovered;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (is_covered[i] == 0) uncovered.push_back(points[i]);
+  }
+  report.uncovered_points = uncovered.size();
+  const std::vector<double> areas(uncovered.size(), area_per_point);
+  report.uncovered = places_of(uncovered, areas, kReach * pixel_size);
+  report.scattered_points = drop_scattered(report.uncovered, kMinPoints);
+  report.uncovered_area = total_area(report.uncovered);
+}
+
+void report_unsupported(std::span<const Vec3> points, const TriangleMesh& mesh, double radius,
+                        double pixel_size, CoverageReport& report) {
+  Box region = bounds_of(mesh);
+  region.lower -= Vec3(radius);
+  region.upper += Vec3(radius);
+  const PointGrid cloud(points, region, radius);
+  std::vector<std::uint8_t> is_supported(mesh.triangles.size(), 0);
+  constexpr std::size_t kFacesPerBlock = 4096;
+  const auto centroid = [&](std::size_t f) {
+    const Triangle& t = mesh.triangles[f];
+    return (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3.0;
+  };
+  parallel_for(mesh.triangles.size(), kFacesPerBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      cloud.for_each_near(centroid(f), radius, [&](const Vec3& offset) {
+        if (glm::dot(offset, offset) < radius * radius) is_supported[f] = 1;
+      });
+    }
+  });
+  std::vector<Vec3> centroids;
+  std::vector<double> areas;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    if (is_supported[f] != 0) continue;
+    centroids.push_back(centroid(f));
+    areas.push_back(area_of_face(mesh, mesh.triangles[f]));
+  }
+  report.unsupported = places_of(centroids, areas, kReach * pixel_size);
+  drop_scattered(report.unsupported, kMinFaces);
+  report.unsupported_area = total_area(report.unsupported);
+}
+
+}  // namespace
+
+CoverageReport report_coverage(std::span<const Vec3> points, const TriangleMesh& mesh,
+                               double pixel_size) {
+  const std::vector<std::uint8_t> is_covered = covered_points(points, mesh, pixel_size);
+  const auto covered =
+      static_cast<double>(std::count(is_covered.begin(), is_covered.end(), std::uint8_t{1}));
+  CoverageReport report;
+  if (points.empty()) return report;
+  report.share = covered / static_cast<double>(points.size());
+  const double area_per_point = covered > 0.0 ? area_of_mesh(mesh) / covered : 0.0;
+  report_uncovered(points, is_covered, area_per_point, pixel_size, report);
+  if (mesh.empty()) return report;
+  const double radius = kSupportRadius * std::max(pixel_size, std::sqrt(area_per_point));
+  report_unsupported(points, mesh, radius, pixel_size, report);
+  return report;
+}
+
+}  // namespace rangezip

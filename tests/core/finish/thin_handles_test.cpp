@@ -1,0 +1,78 @@
+#include "core/finish/thin_handles.h"
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <cstddef>
+#include <numbers>
+
+#include "core/finish/clean_topology.h"
+#include "core/finish/hole_filling.h"
+#include "core/mesh/mesh_report.h"
+#include "tests/support/shapes.h"
+
+namespace rangezip {
+namespace {
+
+constexpr double kThin = 0.06;  ///< radius of what is thin in these shapes
+constexpr double kGirth = 2.0 * std::numbers::pi * kThin;
+constexpr double kAnyHole = 1e6;
+
+/// Handles and tunnels, with every boundary loop taken as filled.
+std::ptrdiff_t genus_of(const TriangleMesh& mesh) {
+  const MeshReport report = report_mesh(mesh);
+  REQUIRE(report.is_manifold());
+  const auto euler = report.euler + static_cast<std::ptrdiff_t>(report.boundary_loops);
+  return static_cast<std::ptrdiff_t>(report.components) - euler / 2;
+}
+
+/// What is left after the holes of a cut are closed.
+TriangleMesh closed(TriangleMesh mesh) {
+  clean_topology(mesh);
+  remove_unused_vertices(mesh);
+  return fill_mesh_holes(std::move(mesh), 0.1, kAnyHole).mesh;
+}
+
+}  // namespace
+
+TEST_CASE("a thin ring is cut open where it is shorter around than asked for, and only then") {
+  const TriangleMesh ring = shapes::to_mesh(shapes::torus(1.0, kThin));
+  TriangleMesh kept = ring;
+  CHECK(cut_thin_handles(kept, 0.95 * kGirth) == 0);
+  CHECK(kept.triangles == ring.triangles);
+  TriangleMesh cut = ring;
+  CHECK(cut_thin_handles(cut, 1.05 * kGirth) == 1);
+  const TriangleMesh healed = closed(std::move(cut));
+  CHECK(genus_of(healed) == 0);
+  CHECK(report_mesh(healed).components == 1);
+  CHECK(report_mesh(healed).boundary_loops == 0);
+}
+
+TEST_CASE("a narrow tunnel is closed like a thin handle") {
+  TriangleMesh mesh = shapes::to_mesh(shapes::torus(1.0, 1.0 - kThin));
+  CHECK(cut_thin_handles(mesh, 1.05 * kGirth) == 1);
+  CHECK(genus_of(closed(std::move(mesh))) == 0);
+}
+
+TEST_CASE("of several bodies only the thin one is cut") {
+  const TriangleSoup thick = shapes::torus();
+  const TriangleSoup thin =
+      shapes::moved(shapes::torus(1.0, kThin), shapes::translation({4.0, 0.0, 0.0}));
+  TriangleMesh mesh = shapes::to_mesh(shapes::merged(thick, thin));
+  REQUIRE(genus_of(mesh) == 2);
+  CHECK(cut_thin_handles(mesh, 1.05 * kGirth) == 1);
+  mesh = closed(std::move(mesh));
+  CHECK(genus_of(mesh) == 1);
+  CHECK(cut_thin_handles(mesh, 1.05 * kGirth) == 0);
+}
+
+TEST_CASE("the ends of an open tube make no handle of it, nor do bodies without any") {
+  constexpr std::array<Vec2, 3> kProfile{Vec2{kThin, 0.0}, Vec2{kThin, 0.1}, Vec2{kThin, 0.2}};
+  TriangleMesh tube = shapes::to_mesh(shapes::revolved(kProfile, false));
+  CHECK(cut_thin_handles(tube, 10.0 * kGirth) == 0);
+  TriangleMesh ball = shapes::to_mesh(shapes::sphere());
+  CHECK(cut_thin_handles(ball, 100.0) == 0);
+  TriangleMesh nothing;
+  CHECK(cut_thin_handles(nothing, 1.0) == 0);
+}
+
+}  // namespace rangezip
