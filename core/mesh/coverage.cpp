@@ -122,26 +122,29 @@ class FaceGrid {
 
 }  // namespace
 
-double coverage_of(std::span<const Vec3> points, const TriangleMesh& mesh, double distance) {
+std::vector<std::uint8_t> covered_points(std::span<const Vec3> points, const TriangleMesh& mesh,
+                                         double distance) {
   if (!(distance > 0.0) || !std::isfinite(distance)) {
-    throw InvalidArgument("coverage_of: distance must be positive and finite, got " +
+    throw InvalidArgument("coverage: distance must be positive and finite, got " +
                           std::to_string(distance));
   }
-  if (points.empty()) return 1.0;
-  if (mesh.triangles.empty()) return 0.0;
+  std::vector<std::uint8_t> covered(points.size(), 0);
+  if (points.empty() || mesh.triangles.empty()) return covered;
 
   const FaceGrid grid(mesh, distance);
   constexpr std::size_t kPointsPerBlock = 16'384;
-  std::vector<std::size_t> near((points.size() + kPointsPerBlock - 1) / kPointsPerBlock, 0);
   parallel_for(points.size(), kPointsPerBlock, [&](std::size_t begin, std::size_t end) {
-    std::size_t& count = near[begin / kPointsPerBlock];
     for (std::size_t i = begin; i < end; ++i)
-      count += grid.is_near(points[i]) ? 1U : 0U;
+      covered[i] = grid.is_near(points[i]) ? 1 : 0;
   });
-  std::size_t total = 0;
-  for (const std::size_t count : near)
-    total += count;
-  return static_cast<double>(total) / static_cast<double>(points.size());
+  return covered;
+}
+
+double coverage_of(std::span<const Vec3> points, const TriangleMesh& mesh, double distance) {
+  const std::vector<std::uint8_t> covered = covered_points(points, mesh, distance);
+  if (points.empty()) return 1.0;
+  const auto count = std::count(covered.begin(), covered.end(), std::uint8_t{1});
+  return static_cast<double>(count) / static_cast<double>(points.size());
 }
 
 }  // namespace rangezip
