@@ -1,4 +1,4 @@
-#include "core/finish/self_intersection.h"
+#include "core/mesh/self_intersection.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "core/base/parallel.h"
-#include "core/finish/triangle_overlap.h"
+#include "core/mesh/triangle_overlap.h"
 
 namespace rangezip {
 namespace {
