@@ -18,7 +18,8 @@ namespace rangezip {
 [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(
     const TriangleMesh& mesh);
 
-/// The same, only pairs with at least one triangle of `changed` (indices, any order).
+/// The same, only pairs with at least one triangle of `changed` (indices, any order). But for one
+/// look at every triangle, the cost is that of the triangles in the box around the changed ones.
 [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(
     const TriangleMesh& mesh, std::span<const std::uint32_t> changed);
 
