@@ -11,6 +11,9 @@ namespace {
 /// Fans of at most this many faces are crumbs of the strip or of cut old faces.
 constexpr std::uint32_t kSmallFan = 2;
 
+/// A vertex that parts from a fan moves this share of the way to the middle of the fan's others.
+constexpr double kPartingShare = 1.0 / 16.0;
+
 /// Removing a fan can part another one; after these rounds what is left is split.
 constexpr int kRounds = 5;
 
@@ -114,9 +117,16 @@ void remove_marked(TriangleMesh& mesh, const std::vector<std::uint8_t>& marked) 
   mesh.triangles.resize(kept);
 }
 
+bool has_marked_corner(const Triangle& face, const std::vector<std::uint8_t>& marked) {
+  return !marked.empty() && std::any_of(face.begin(), face.end(), [&](std::uint32_t v) {
+    return v < marked.size() && marked[v] != 0;
+  });
+}
+
 /// One round of removing small fans; how many faces went. Their corners become touched.
 std::size_t remove_small_fans(TriangleMesh& mesh, const Stars& stars,
-                              std::vector<std::uint8_t>& touched) {
+                              std::vector<std::uint8_t>& touched,
+                              const std::vector<std::uint8_t>& rim) {
   std::vector<std::uint8_t> removed(mesh.triangles.size(), 0);
   std::size_t count = 0;
   Fans fans;
@@ -127,6 +137,7 @@ std::size_t remove_small_fans(TriangleMesh& mesh, const Stars& stars,
     if (fans.count() < 2) continue;
     for (std::uint32_t i = 0; i < star.size(); ++i) {
       if (fans.is_largest(i) || fans.size_of(i) > kSmallFan || removed[star[i]] != 0) continue;
+      if (has_marked_corner(mesh.triangles[star[i]], rim)) continue;
       removed[star[i]] = 1;
       ++count;
     }
@@ -145,6 +156,21 @@ std::uint32_t copy_vertex(TriangleMesh& mesh, std::uint32_t vertex) {
   mesh.positions.push_back(Vec3(mesh.positions[vertex]));
   if (!mesh.sources.empty()) mesh.sources.push_back(VertexSource(mesh.sources[vertex]));
   return static_cast<std::uint32_t>(mesh.positions.size() - 1);
+}
+
+/// Moves the vertex of a fan that has parted from others towards the middle of the fan.
+void move_into_fan(TriangleMesh& mesh, std::uint32_t vertex, std::span<const std::uint32_t> star) {
+  Vec3 sum{0.0};
+  double corners = 0.0;
+  for (const std::uint32_t f : star) {
+    const Triangle& face = mesh.triangles[f];
+    if (std::find(face.begin(), face.end(), vertex) == face.end()) continue;
+    const std::size_t k = corner_of(face, vertex);
+    sum += mesh.positions[face[(k + 1) % 3]] + mesh.positions[face[(k + 2) % 3]];
+    corners += 2.0;
+  }
+  Vec3& position = mesh.positions[vertex];
+  position += kPartingShare * (sum / corners - position);
 }
 
 /// Gives every fan but the largest a vertex of its own; how many were made.
@@ -168,12 +194,18 @@ std::size_t split_fans(TriangleMesh& mesh, const Stars& stars, std::vector<std::
       Triangle& face = mesh.triangles[star[i]];
       face[corner_of(face, v)] = copy;
     }
+    std::sort(copies.begin(), copies.end());
+    copies.erase(std::unique(copies.begin(), copies.end()), copies.end());
+    for (const std::uint32_t copy : copies) {
+      if (copy != v) move_into_fan(mesh, copy, star);
+    }
   }
   return mesh.positions.size() - vertices;
 }
 
 void drop_small_components(TriangleMesh& mesh, const std::vector<std::uint8_t>& touched,
-                           std::size_t min_component, CleanUpReport& report) {
+                           std::size_t min_component, const std::vector<std::uint8_t>& rim,
+                           CleanUpReport& report) {
   std::vector<std::uint32_t> parent(mesh.positions.size());
   std::iota(parent.begin(), parent.end(), 0U);
   for (const Triangle& face : mesh.triangles) {
@@ -183,6 +215,9 @@ void drop_small_components(TriangleMesh& mesh, const std::vector<std::uint8_t>& 
   std::vector<std::uint32_t> faces(mesh.positions.size(), 0);
   for (const Triangle& face : mesh.triangles)
     ++faces[find_root(parent, face[0])];
+  for (std::uint32_t v = 0; v < rim.size(); ++v) {  // the rest of the piece is not known
+    if (rim[v] != 0) faces[find_root(parent, v)] += static_cast<std::uint32_t>(min_component);
+  }
   std::vector<std::uint8_t> is_touched(mesh.positions.size(), 0);
   for (std::uint32_t v = 0; v < touched.size(); ++v) {
     if (touched[v] != 0) is_touched[find_root(parent, v)] = 1;
@@ -199,36 +234,22 @@ void drop_small_components(TriangleMesh& mesh, const std::vector<std::uint8_t>& 
                 [&](const Triangle& face) { return is_small[find_root(parent, face[0])] != 0; });
 }
 
-void keep_marks_of_used_vertices(const TriangleMesh& mesh, std::vector<std::uint8_t>& marks) {
-  std::vector<std::uint8_t> is_used(mesh.positions.size(), 0);
-  for (const Triangle& face : mesh.triangles) {
-    for (const std::uint32_t v : face)
-      is_used[v] = 1;
-  }
-  std::size_t kept = 0;
-  for (std::size_t v = 0; v < is_used.size(); ++v) {
-    if (is_used[v] != 0) marks[kept++] = marks[v];
-  }
-  marks.resize(kept);
-}
-
 }  // namespace
 
 CleanUpReport clean_up(TriangleMesh& mesh, std::vector<std::uint8_t> touched,
-                       std::vector<std::uint8_t>& marks, std::size_t min_component) {
+                       std::vector<std::uint8_t>& marks, std::size_t min_component,
+                       const std::vector<std::uint8_t>& rim) {
   CleanUpReport report;
   Stars stars(mesh, touched);
   for (int round = 0; round < kRounds; ++round) {
-    const std::size_t removed = remove_small_fans(mesh, stars, touched);
+    const std::size_t removed = remove_small_fans(mesh, stars, touched, rim);
     if (removed == 0) break;
     report.opened_fans += removed;
     stars = Stars(mesh, touched);
   }
   report.split_vertices = split_fans(mesh, stars, marks);
   touched.resize(mesh.positions.size(), 1);
-  drop_small_components(mesh, touched, min_component, report);
-  keep_marks_of_used_vertices(mesh, marks);
-  remove_unused_vertices(mesh);
+  drop_small_components(mesh, touched, min_component, rim, report);
   return report;
 }
 
