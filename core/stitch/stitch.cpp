@@ -13,6 +13,7 @@
 #include "core/stitch/crossing_faces.h"
 #include "core/stitch/face_changes.h"
 #include "core/stitch/lost_pixels.h"
+#include "core/stitch/lost_places.h"
 #include "core/stitch/mesh_part.h"
 #include "core/stitch/withdraw.h"
 #include "core/stitch/zipper.h"
@@ -40,6 +41,16 @@ double smallest_pixel_side(const PatchScan& scan) {
     side = std::min(side, scan.image.pixel_size(p));
   return side;
 }
+
+double largest_pixel_side(const PatchScan& scan) {
+  double side = 0.0;
+  for (const Pixel p : scan.patch.pixels)
+    side = std::max(side, scan.image.pixel_size(p));
+  return side;
+}
+
+/// Where the old surface was a face must be within this many pixel sides.
+constexpr double kLostDistance = 1.5;
 
 /// One way of joining a patch to the part of the mesh around it.
 class Attempt {
@@ -142,7 +153,13 @@ std::vector<Pixel> Attempt::lost_pixels() {
   const ImagePlane rest = project_to_image(std::span(joint_.mesh.positions).subspan(known), view);
   joint_.image.points.insert(joint_.image.points.end(), rest.points.begin(), rest.points.end());
   joint_.image.depths.insert(joint_.image.depths.end(), rest.depths.begin(), rest.depths.end());
-  return find_lost_pixels({part_.mesh, image_}, {joint_.mesh, joint_.image}, changes_, view);
+  const SeenMesh before{part_.mesh, image_};
+  const SeenMesh after{joint_.mesh, joint_.image};
+  std::vector<Pixel> lost = find_lost_pixels(before, after, changes_, view);
+  const double distance = kLostDistance * largest_pixel_side(scan_);
+  const std::vector<Pixel> places = find_lost_places(before, after, changes_, distance);
+  lost.insert(lost.end(), places.begin(), places.end());
+  return lost;
 }
 
 /// Where a hole is in the way the patch is withdrawn from it by this many pixels at first, and by
