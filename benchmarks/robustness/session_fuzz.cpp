@@ -2,8 +2,8 @@
 // (tests/support/random_sessions.h), runs them on all cores, and counts by cause what CGAL and the
 // coverage of pixels and points say against the mesh after each stitch.
 //   session_fuzz [--sessions N] [--first K] [--seed S] [--json FILE] [--revision NAME]
-//       sessions K, K + 1, ... of the seed. Exit code 1 if anything is wrong; the first sessions
-//       with each fault are printed.
+//       sessions K, K + 1, ... of the seed. Exit code 1 if anything is wrong; sessions with a fault
+//       are printed as they are met.
 //   session_fuzz --seed S --session K    that one alone, command by command
 
 #include <chrono>
@@ -49,9 +49,8 @@ struct Result {
   Tally total;
   std::map<std::string, Tally> by_model;
   std::map<std::string, Tally> by_kind;
-  Counts repairs;                       ///< what the stitches rolled back by themselves
-  std::map<std::string, Counts> first;  ///< per fault the first session that has it, and how much
-  std::size_t faces = 0;                ///< of the last meshes
+  Counts repairs;         ///< faces that the stitches rolled back by themselves
+  std::size_t faces = 0;  ///< of the last meshes
 };
 
 void add(const Counts& from, Counts& to) {
@@ -59,23 +58,28 @@ void add(const Counts& from, Counts& to) {
     to[name] += count;
 }
 
-void count(std::uint64_t number, const std::string& model, const sessions::Outcome& outcome,
-           Result& result) {
+void print_faults(std::uint64_t number, const sessions::Outcome& outcome) {
+  for (const sessions::Step& step : outcome.steps) {
+    if (!step.faults.any()) continue;
+    std::printf("session %llu, %s:", static_cast<unsigned long long>(number), step.kind.c_str());
+    for (const auto& [cause, amount] : step.faults.by_cause()) {
+      if (amount > 0) std::printf(" %s %zu", cause.c_str(), amount);
+    }
+    std::printf(" %s\n", step.what.c_str());
+  }
+  std::fflush(stdout);
+}
+
+void count(const std::string& model, const sessions::Outcome& outcome, Result& result) {
   ++result.total.sessions;
   ++result.by_model[model].sessions;
   result.faces += outcome.faces;
   add(outcome.repairs, result.repairs);
   for (const sessions::Step& step : outcome.steps) {
-    const Counts faults = step.faults.by_cause();
     for (Tally* tally : {&result.total, &result.by_model[model], &result.by_kind[step.kind]}) {
       ++tally->commands;
       tally->faulty_commands += step.faults.any() ? 1 : 0;
-      add(faults, tally->faults);
-    }
-    for (const auto& [cause, amount] : faults) {
-      Counts& first = result.first[cause];
-      constexpr std::size_t kMostShown = 5;
-      if (amount > 0 && first.size() < kMostShown) first[std::to_string(number)] = amount;
+      add(step.faults.by_cause(), tally->faults);
     }
   }
 }
@@ -95,8 +99,10 @@ Result run(const Options& options) {
         outcomes[i] = sessions::run_session(session);
       }
     });
-    for (std::size_t i = 0; i < size; ++i)
-      count(options.first + begin + i, models[i], outcomes[i], result);
+    for (std::size_t i = 0; i < size; ++i) {
+      print_faults(options.first + begin + i, outcomes[i]);
+      count(models[i], outcomes[i], result);
+    }
     std::fprintf(stderr, "\r%zu sessions, %zu faulty commands of %zu ", result.total.sessions,
                  result.total.faulty_commands, result.total.commands);
   }
@@ -105,16 +111,10 @@ Result run(const Options& options) {
 }
 
 void print(const Result& result) {
-  for (const auto& [cause, amount] : result.total.faults) {
-    std::printf("%-20s %zu", cause.c_str(), amount);
-    for (const auto& [number, here] : result.first.at(cause))
-      std::printf("%s%s (%zu)",
-                  number == result.first.at(cause).begin()->first ? "   sessions " : ", ",
-                  number.c_str(), here);
-    std::printf("\n");
-  }
+  for (const auto& [cause, amount] : result.total.faults)
+    std::printf("%-20s %zu\n", cause.c_str(), amount);
   for (const auto& [name, amount] : result.repairs)
-    std::printf("rolled back: %-20s %zu\n", name.c_str(), amount);
+    std::printf("in all stitches: %-20s %zu\n", name.c_str(), amount);
 }
 
 void show(const Options& options) {

@@ -50,7 +50,7 @@ double largest_pixel_side(const PatchScan& scan) {
 }
 
 /// Where the old surface was a face must be within this many pixel sides.
-constexpr double kLostDistance = 1.5;
+constexpr double kLostDistance = 1.0;
 
 /// One way of joining a patch to the part of the mesh around it.
 class Attempt {

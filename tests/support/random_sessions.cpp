@@ -248,10 +248,8 @@ Framebuffer draw(const TriangleMesh& mesh, const View& view) {
   return rasterizer.render(view, {&item, 1});
 }
 
-/// Whether a face comes within a fiftieth of a pixel of the place in the window. The rasterizer
-/// snaps corners to 1/256, and pixel centres on the border of the mesh to either side.
-bool touches(const TriangleMesh& mesh, const View& view, const Vec2& place) {
-  constexpr double kTouch = 0.02;
+/// Whether the image of a face comes within `reach` pixels of the place in the window.
+bool touches(const TriangleMesh& mesh, const View& view, const Vec2& place, double reach) {
   return std::ranges::any_of(mesh.triangles, [&](const Triangle& face) {
     std::array<Vec3, 3> corners;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -262,8 +260,23 @@ bool touches(const TriangleMesh& mesh, const View& view, const Vec2& place) {
     }
     const Vec3 at{place, 0.0};
     const Vec3 nearest = closest_point_on_triangle(at, corners[0], corners[1], corners[2]);
-    return glm::dot(nearest - at, nearest - at) <= kTouch * kTouch;
+    return glm::dot(nearest - at, nearest - at) <= reach * reach;
   });
+}
+
+/// Whether the centre of a pixel that a rasterizer found covered before and not after has lost the
+/// surface. The rasterizer snaps corners to 1/256 of a pixel, and centres on the border of the mesh
+/// to either side; so it must have been that far inside and is now that far outside.
+bool has_lost(const TriangleMesh& before, const TriangleMesh& after, const View& view,
+              Pixel pixel) {
+  constexpr double kSnap = 0.02;
+  constexpr double kExact = 1e-9;
+  const Vec2 centre{pixel.x + 0.5, pixel.y + 0.5};
+  for (const Vec2& offset :
+       {Vec2{kSnap, kSnap}, Vec2{-kSnap, kSnap}, Vec2{kSnap, -kSnap}, Vec2{-kSnap, -kSnap}}) {
+    if (!touches(before, view, centre + offset, kExact)) return false;
+  }
+  return !touches(after, view, centre, kSnap);
 }
 
 std::size_t count_lost_pixels(const TriangleMesh& before, const TriangleMesh& after,
@@ -274,7 +287,7 @@ std::size_t count_lost_pixels(const TriangleMesh& before, const TriangleMesh& af
   for (int y = 0; y < view.extent().height; ++y) {
     for (int x = 0; x < view.extent().width; ++x) {
       if (shown.id[{x, y}] == kNoPrimitive || left.id[{x, y}] != kNoPrimitive) continue;
-      lost += touches(after, view, {x + 0.5, y + 0.5}) ? 0 : 1;
+      lost += has_lost(before, after, view, {x, y}) ? 1 : 0;
     }
   }
   return lost;
@@ -295,7 +308,7 @@ std::size_t count_lost_matches(const TriangleMesh& before, const TriangleMesh& a
   for (int y = 0; y < view.extent().height; ++y) {
     for (int x = 0; x < view.extent().width; ++x) {
       if (matched[{x, y}] == kNoPrimitive || left[{x, y}] != kNoPrimitive) continue;
-      lost += touches(after, view, {x + 0.5, y + 0.5}) ? 0 : 1;
+      lost += has_lost(before, after, view, {x, y}) ? 1 : 0;
     }
   }
   return lost;
@@ -368,10 +381,19 @@ void judge_topology(const TriangleMesh& mesh, Faults& faults) {
 
 void judge_coverage(const TriangleMesh& before, const TriangleMesh& after, const Scan& scan,
                     std::span<const Vec3> points, double pixel_size, Faults& faults) {
+  for (const Pixel p : scan.patch.pixels)
+    pixel_size = std::max(pixel_size, scan.image.pixel_size(p));
   faults.lost_pixels = count_lost_pixels(before, after, scan.image.view());
   faults.lost_matches = count_lost_matches(before, after, scan);
   faults.lost_points = count_lost_points(before, after, points, pixel_size);
   faults.changed_outside = count_changed_outside(before, after, scan);
+}
+
+void add_repairs(const StitchReport& report, Outcome& outcome) {
+  outcome.repairs["crossing_seam_faces"] += report.crossing_seam_faces;
+  outcome.repairs["crossing_patch_faces"] += report.crossing_patch_faces;
+  outcome.repairs["withdrawn_faces"] += report.withdrawn_faces;
+  outcome.repairs["patch_faces"] += report.patch_faces;
 }
 
 std::string kind_of(const Command& command) {
@@ -428,6 +450,7 @@ Outcome run_session(const RandomSession& session) {
       CommandResult result = run_command(command, session.scene, mesh, votes, rasterizer);
       judge_topology(result.mesh, step.faults);
       if (result.scan) {
+        add_repairs(result.report.stitch, outcome);
         judge_coverage(mesh, result.mesh, *result.scan, points, session.pixel_size, step.faults);
       }
       mesh = std::move(result.mesh);
