@@ -72,11 +72,14 @@ class Fans {
     parent_.resize(count);
     std::iota(parent_.begin(), parent_.end(), 0U);
     leaving_.clear();
+    arriving_.clear();
     for (std::uint32_t i = 0; i < count; ++i) {
       const Triangle& face = mesh.triangles[star[i]];
       leaving_.push_back({face[(corner_of(face, vertex) + 1) % 3], i});
+      arriving_.push_back(face[(corner_of(face, vertex) + 2) % 3]);
     }
     std::sort(leaving_.begin(), leaving_.end());
+    std::sort(arriving_.begin(), arriving_.end());
     for (std::uint32_t i = 0; i < count; ++i) {
       const Triangle& face = mesh.triangles[star[i]];
       const std::uint32_t arriving = face[(corner_of(face, vertex) + 2) % 3];
@@ -97,6 +100,12 @@ class Fans {
   }
 
   [[nodiscard]] std::uint32_t count() const { return fans_; }
+  /// Whether no two faces of the star leave the vertex along the same edge, or arrive along one.
+  [[nodiscard]] bool has_each_edge_once() const {
+    const auto is_same = [](const auto& a, const auto& b) { return a.first == b.first; };
+    return std::adjacent_find(leaving_.begin(), leaving_.end(), is_same) == leaving_.end() &&
+           std::adjacent_find(arriving_.begin(), arriving_.end()) == arriving_.end();
+  }
   [[nodiscard]] std::uint32_t fan_of(std::uint32_t i) { return find_root(parent_, i); }
   [[nodiscard]] bool is_largest(std::uint32_t i) { return fan_of(i) == largest_; }
   [[nodiscard]] std::uint32_t size_of(std::uint32_t i) { return sizes_[fan_of(i)]; }
@@ -105,6 +114,7 @@ class Fans {
   std::vector<std::uint32_t> parent_;
   std::vector<std::uint32_t> sizes_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> leaving_;  ///< next corner, place in star
+  std::vector<std::uint32_t> arriving_;                           ///< previous corners
   std::uint32_t fans_ = 0;
   std::uint32_t largest_ = 0;
 };
@@ -251,6 +261,18 @@ CleanUpReport clean_up(TriangleMesh& mesh, std::vector<std::uint8_t> touched,
   touched.resize(mesh.positions.size(), 1);
   drop_small_components(mesh, touched, min_component, rim, report);
   return report;
+}
+
+bool is_manifold_at(const TriangleMesh& mesh, const std::vector<std::uint8_t>& marked) {
+  const Stars stars(mesh, marked);
+  Fans fans;
+  for (std::uint32_t v = 0; v < marked.size(); ++v) {
+    const auto star = stars.of(v);
+    if (star.empty()) continue;
+    fans.find(mesh, v, star);
+    if (fans.count() > 1 || !fans.has_each_edge_once()) return false;
+  }
+  return true;
 }
 
 }  // namespace rangezip

@@ -30,4 +30,9 @@ struct CleanUpReport {
                                      std::vector<std::uint8_t>& marks, std::size_t min_component,
                                      const std::vector<std::uint8_t>& rim = {});
 
+/// Whether every marked (1) vertex has one fan of faces, or none, and none of the directed edges
+/// from or to it is in two faces: what clean_up() promises, looked at again.
+[[nodiscard]] bool is_manifold_at(const TriangleMesh& mesh,
+                                  const std::vector<std::uint8_t>& marked);
+
 }  // namespace rangezip

