@@ -2,9 +2,8 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
-
-#include "core/mesh/triangle_mesh.h"
 
 namespace rangezip {
 
