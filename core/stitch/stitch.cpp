@@ -136,16 +136,20 @@ void Attempt::remove(std::span<const std::uint32_t> faces, std::span<const FaceO
   joint_.mesh.triangles.resize(kept);
 }
 
-/// Every round removes a face at least, so there is a last one: that finds none.
+/// Every round removes a face at least, so there is a last one. What is left of faces that did not
+/// cross does not either, unless vertices were split, and so moved.
 void Attempt::roll_back_crossings() {
-  for (;;) {
+  for (bool has_moved = true; has_moved;) {
     changes_ = find_face_changes(part_.mesh, joint_.mesh);
     const std::vector<FacePair> pairs = self_intersections(joint_.mesh, changes_.made);
     if (pairs.empty()) return;
     const std::vector<FaceOrigin> origins = origins_of(changes_.made);
     remove(choose_crossing_faces(pairs, origins), origins);
+    const std::size_t split = report_.split_vertices;
     clean();
+    has_moved = report_.split_vertices > split;
   }
+  changes_ = find_face_changes(part_.mesh, joint_.mesh);
 }
 
 /// Where faces came or went; elsewhere nothing has changed.
