@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 
 #include "apps/rangezip/commands.h"
-#include "core/finish/self_intersection.h"
 #include "core/io/input_file.h"
 #include "core/io/mesh_file.h"
 #include "core/io/session_file.h"
 #include "core/mesh/mesh_report.h"
+#include "core/mesh/self_intersection.h"
 
 namespace rangezip::app {
 

@@ -38,7 +38,10 @@ Json json_of(const StitchReport& stitch) {
           {"patch_faces", stitch.patch_faces},
           {"strip_faces", stitch.strip_faces},
           {"dropped_components", stitch.dropped_components},
-          {"dropped_faces", stitch.dropped_faces}};
+          {"dropped_faces", stitch.dropped_faces},
+          {"crossing_seam_faces", stitch.crossing_seam_faces},
+          {"crossing_patch_faces", stitch.crossing_patch_faces},
+          {"withdrawn_faces", stitch.withdrawn_faces}};
 }
 
 Json json_of(const FinishReport& finish) {

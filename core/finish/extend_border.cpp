@@ -14,7 +14,7 @@
 #include "core/finish/border_step.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/face_grid.h"
-#include "core/finish/self_intersection.h"
+#include "core/mesh/self_intersection.h"
 
 namespace rangezip {
 namespace {

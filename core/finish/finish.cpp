@@ -15,10 +15,10 @@
 #include "core/finish/point_grid.h"
 #include "core/finish/remesh.h"
 #include "core/finish/repair.h"
-#include "core/finish/self_intersection.h"
 #include "core/finish/snap_features.h"
 #include "core/finish/thin_handles.h"
 #include "core/finish/untangle.h"
+#include "core/mesh/self_intersection.h"
 
 namespace rangezip {
 namespace {

@@ -13,8 +13,8 @@
 #include "core/finish/clean_topology.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/hole_choice.h"
-#include "core/finish/self_intersection.h"
 #include "core/finish/verified_fills.h"
+#include "core/mesh/self_intersection.h"
 
 namespace rangezip {
 namespace {

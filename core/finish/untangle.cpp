@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/finish/corner_table.h"
-#include "core/finish/self_intersection.h"
+#include "core/mesh/self_intersection.h"
 
 namespace rangezip {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
-#include "core/finish/self_intersection.h"
+#include "core/mesh/self_intersection.h"
 
 namespace rangezip {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace rangezip {
 
@@ -21,27 +20,32 @@ double longest_side(const TriangleMesh& mesh, const Triangle& triangle) {
       std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)}));
 }
 
-void remove_unused_vertices(TriangleMesh& mesh) {
-  constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> new_index(mesh.positions.size(), kUnused);
-  for (const Triangle& triangle : mesh.triangles) {
-    for (const std::uint32_t corner : triangle)
-      new_index[corner] = 0;
-  }
+void remove_vertices(TriangleMesh& mesh, const std::vector<std::uint8_t>& marked) {
+  std::vector<std::uint32_t> new_index(mesh.positions.size());
   std::uint32_t next = 0;
   for (std::size_t i = 0; i < new_index.size(); ++i) {
-    if (new_index[i] == kUnused) continue;
     new_index[i] = next;
+    if (marked[i] != 0) continue;
     mesh.positions[next] = mesh.positions[i];
     if (!mesh.sources.empty()) mesh.sources[next] = mesh.sources[i];
     ++next;
   }
+  if (next == mesh.positions.size()) return;
   mesh.positions.resize(next);
   if (!mesh.sources.empty()) mesh.sources.resize(next);
   for (Triangle& triangle : mesh.triangles) {
     for (std::uint32_t& corner : triangle)
       corner = new_index[corner];
   }
+}
+
+void remove_unused_vertices(TriangleMesh& mesh) {
+  std::vector<std::uint8_t> is_unused(mesh.positions.size(), 1);
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const std::uint32_t corner : triangle)
+      is_unused[corner] = 0;
+  }
+  remove_vertices(mesh, is_unused);
 }
 
 }  // namespace rangezip

@@ -38,6 +38,10 @@ struct TriangleMesh {
 /// [Kobbelt, Botsch 2000, 4.3].
 [[nodiscard]] double longest_side(const TriangleMesh& mesh, const Triangle& triangle);
 
+/// Drops the marked (1) positions, keeping the order of the others.
+/// @pre one mark per position; no triangle uses a marked one
+void remove_vertices(TriangleMesh& mesh, const std::vector<std::uint8_t>& marked);
+
 /// Drops positions that no triangle uses, keeping the order of the others.
 void remove_unused_vertices(TriangleMesh& mesh);
 

@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
-#include "core/finish/self_intersection.h"
+#include "core/mesh/self_intersection.h"
 #include "core/plan/open_sheet.h"
 #include "core/plan/spacing.h"
 #include "core/plan/view_planner.h"

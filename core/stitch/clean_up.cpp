@@ -11,6 +11,9 @@ namespace {
 /// Fans of at most this many faces are crumbs of the strip or of cut old faces.
 constexpr std::uint32_t kSmallFan = 2;
 
+/// A vertex that parts from a fan moves this share of the way to the middle of the fan's others.
+constexpr double kPartingShare = 1.0 / 16.0;
+
 /// Removing a fan can part another one; after these rounds what is left is split.
 constexpr int kRounds = 5;
 
@@ -69,11 +72,14 @@ class Fans {
     parent_.resize(count);
     std::iota(parent_.begin(), parent_.end(), 0U);
     leaving_.clear();
+    arriving_.clear();
     for (std::uint32_t i = 0; i < count; ++i) {
       const Triangle& face = mesh.triangles[star[i]];
       leaving_.push_back({face[(corner_of(face, vertex) + 1) % 3], i});
+      arriving_.push_back(face[(corner_of(face, vertex) + 2) % 3]);
     }
     std::sort(leaving_.begin(), leaving_.end());
+    std::sort(arriving_.begin(), arriving_.end());
     for (std::uint32_t i = 0; i < count; ++i) {
       const Triangle& face = mesh.triangles[star[i]];
       const std::uint32_t arriving = face[(corner_of(face, vertex) + 2) % 3];
@@ -94,6 +100,12 @@ class Fans {
   }
 
   [[nodiscard]] std::uint32_t count() const { return fans_; }
+  /// Whether no two faces of the star leave the vertex along the same edge, or arrive along one.
+  [[nodiscard]] bool has_each_edge_once() const {
+    const auto is_same = [](const auto& a, const auto& b) { return a.first == b.first; };
+    return std::adjacent_find(leaving_.begin(), leaving_.end(), is_same) == leaving_.end() &&
+           std::adjacent_find(arriving_.begin(), arriving_.end()) == arriving_.end();
+  }
   [[nodiscard]] std::uint32_t fan_of(std::uint32_t i) { return find_root(parent_, i); }
   [[nodiscard]] bool is_largest(std::uint32_t i) { return fan_of(i) == largest_; }
   [[nodiscard]] std::uint32_t size_of(std::uint32_t i) { return sizes_[fan_of(i)]; }
@@ -102,6 +114,7 @@ class Fans {
   std::vector<std::uint32_t> parent_;
   std::vector<std::uint32_t> sizes_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> leaving_;  ///< next corner, place in star
+  std::vector<std::uint32_t> arriving_;                           ///< previous corners
   std::uint32_t fans_ = 0;
   std::uint32_t largest_ = 0;
 };
@@ -114,9 +127,16 @@ void remove_marked(TriangleMesh& mesh, const std::vector<std::uint8_t>& marked) 
   mesh.triangles.resize(kept);
 }
 
+bool has_marked_corner(const Triangle& face, const std::vector<std::uint8_t>& marked) {
+  return !marked.empty() && std::any_of(face.begin(), face.end(), [&](std::uint32_t v) {
+    return v < marked.size() && marked[v] != 0;
+  });
+}
+
 /// One round of removing small fans; how many faces went. Their corners become touched.
 std::size_t remove_small_fans(TriangleMesh& mesh, const Stars& stars,
-                              std::vector<std::uint8_t>& touched) {
+                              std::vector<std::uint8_t>& touched,
+                              const std::vector<std::uint8_t>& rim) {
   std::vector<std::uint8_t> removed(mesh.triangles.size(), 0);
   std::size_t count = 0;
   Fans fans;
@@ -127,6 +147,7 @@ std::size_t remove_small_fans(TriangleMesh& mesh, const Stars& stars,
     if (fans.count() < 2) continue;
     for (std::uint32_t i = 0; i < star.size(); ++i) {
       if (fans.is_largest(i) || fans.size_of(i) > kSmallFan || removed[star[i]] != 0) continue;
+      if (has_marked_corner(mesh.triangles[star[i]], rim)) continue;
       removed[star[i]] = 1;
       ++count;
     }
@@ -145,6 +166,21 @@ std::uint32_t copy_vertex(TriangleMesh& mesh, std::uint32_t vertex) {
   mesh.positions.push_back(Vec3(mesh.positions[vertex]));
   if (!mesh.sources.empty()) mesh.sources.push_back(VertexSource(mesh.sources[vertex]));
   return static_cast<std::uint32_t>(mesh.positions.size() - 1);
+}
+
+/// Moves the vertex of a fan that has parted from others towards the middle of the fan.
+void move_into_fan(TriangleMesh& mesh, std::uint32_t vertex, std::span<const std::uint32_t> star) {
+  Vec3 sum{0.0};
+  double corners = 0.0;
+  for (const std::uint32_t f : star) {
+    const Triangle& face = mesh.triangles[f];
+    if (std::find(face.begin(), face.end(), vertex) == face.end()) continue;
+    const std::size_t k = corner_of(face, vertex);
+    sum += mesh.positions[face[(k + 1) % 3]] + mesh.positions[face[(k + 2) % 3]];
+    corners += 2.0;
+  }
+  Vec3& position = mesh.positions[vertex];
+  position += kPartingShare * (sum / corners - position);
 }
 
 /// Gives every fan but the largest a vertex of its own; how many were made.
@@ -168,12 +204,18 @@ std::size_t split_fans(TriangleMesh& mesh, const Stars& stars, std::vector<std::
       Triangle& face = mesh.triangles[star[i]];
       face[corner_of(face, v)] = copy;
     }
+    std::sort(copies.begin(), copies.end());
+    copies.erase(std::unique(copies.begin(), copies.end()), copies.end());
+    for (const std::uint32_t copy : copies) {
+      if (copy != v) move_into_fan(mesh, copy, star);
+    }
   }
   return mesh.positions.size() - vertices;
 }
 
 void drop_small_components(TriangleMesh& mesh, const std::vector<std::uint8_t>& touched,
-                           std::size_t min_component, CleanUpReport& report) {
+                           std::size_t min_component, const std::vector<std::uint8_t>& rim,
+                           CleanUpReport& report) {
   std::vector<std::uint32_t> parent(mesh.positions.size());
   std::iota(parent.begin(), parent.end(), 0U);
   for (const Triangle& face : mesh.triangles) {
@@ -183,6 +225,9 @@ void drop_small_components(TriangleMesh& mesh, const std::vector<std::uint8_t>& 
   std::vector<std::uint32_t> faces(mesh.positions.size(), 0);
   for (const Triangle& face : mesh.triangles)
     ++faces[find_root(parent, face[0])];
+  for (std::uint32_t v = 0; v < rim.size(); ++v) {  // the rest of the piece is not known
+    if (rim[v] != 0) faces[find_root(parent, v)] += static_cast<std::uint32_t>(min_component);
+  }
   std::vector<std::uint8_t> is_touched(mesh.positions.size(), 0);
   for (std::uint32_t v = 0; v < touched.size(); ++v) {
     if (touched[v] != 0) is_touched[find_root(parent, v)] = 1;
@@ -199,37 +244,35 @@ void drop_small_components(TriangleMesh& mesh, const std::vector<std::uint8_t>& 
                 [&](const Triangle& face) { return is_small[find_root(parent, face[0])] != 0; });
 }
 
-void keep_marks_of_used_vertices(const TriangleMesh& mesh, std::vector<std::uint8_t>& marks) {
-  std::vector<std::uint8_t> is_used(mesh.positions.size(), 0);
-  for (const Triangle& face : mesh.triangles) {
-    for (const std::uint32_t v : face)
-      is_used[v] = 1;
-  }
-  std::size_t kept = 0;
-  for (std::size_t v = 0; v < is_used.size(); ++v) {
-    if (is_used[v] != 0) marks[kept++] = marks[v];
-  }
-  marks.resize(kept);
-}
-
 }  // namespace
 
 CleanUpReport clean_up(TriangleMesh& mesh, std::vector<std::uint8_t> touched,
-                       std::vector<std::uint8_t>& marks, std::size_t min_component) {
+                       std::vector<std::uint8_t>& marks, std::size_t min_component,
+                       const std::vector<std::uint8_t>& rim) {
   CleanUpReport report;
   Stars stars(mesh, touched);
   for (int round = 0; round < kRounds; ++round) {
-    const std::size_t removed = remove_small_fans(mesh, stars, touched);
+    const std::size_t removed = remove_small_fans(mesh, stars, touched, rim);
     if (removed == 0) break;
     report.opened_fans += removed;
     stars = Stars(mesh, touched);
   }
   report.split_vertices = split_fans(mesh, stars, marks);
   touched.resize(mesh.positions.size(), 1);
-  drop_small_components(mesh, touched, min_component, report);
-  keep_marks_of_used_vertices(mesh, marks);
-  remove_unused_vertices(mesh);
+  drop_small_components(mesh, touched, min_component, rim, report);
   return report;
+}
+
+bool is_manifold_at(const TriangleMesh& mesh, const std::vector<std::uint8_t>& marked) {
+  const Stars stars(mesh, marked);
+  Fans fans;
+  for (std::uint32_t v = 0; v < marked.size(); ++v) {
+    const auto star = stars.of(v);
+    if (star.empty()) continue;
+    fans.find(mesh, v, star);
+    if (fans.count() > 1 || !fans.has_each_edge_once()) return false;
+  }
+  return true;
 }
 
 }  // namespace rangezip

@@ -6,7 +6,7 @@
 
 namespace rangezip {
 
-Joint clear_and_fill(TriangleMesh mesh, const Scan& scan, const StitchOptions& options,
+Joint clear_and_fill(TriangleMesh mesh, const PatchScan& scan, const StitchOptions& options,
                      StitchReport& report) {
   Joint joint = begin_joint(std::move(mesh), scan, options.view);
   const PatchSheet sheet(scan, sheet_radius(options));

@@ -10,7 +10,7 @@ namespace rangezip {
 /// what does not fit stays open, one strip triangle at a time. Vertices where fans touch are not
 /// yet opened: see stitch(), which does the rest.
 /// @throws TopologyError as stitch() does
-[[nodiscard]] Joint clear_and_fill(TriangleMesh mesh, const Scan& scan,
+[[nodiscard]] Joint clear_and_fill(TriangleMesh mesh, const PatchScan& scan,
                                    const StitchOptions& options, StitchReport& report);
 
 }  // namespace rangezip

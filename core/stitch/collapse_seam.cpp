@@ -141,7 +141,6 @@ std::size_t collapse_short_seam_edges(TriangleMesh& mesh, const std::vector<std:
   mesh.triangles.resize(kept);
   const std::vector<Triangle> faces = faces_in_whole(sheet);
   mesh.triangles.insert(mesh.triangles.end(), faces.begin(), faces.end());
-  remove_unused_vertices(mesh);
   return count;
 }
 

@@ -11,7 +11,7 @@ namespace rangezip {
 /// Last step of zippering: collapses edges shorter than `min_length` (model units) that end in a
 /// vertex of the seam, onto that vertex where it may stay. An edge stays if the collapse would
 /// change the topology, move the boundary, flatten a face, or turn one by more than 60 degrees
-/// [Kobbelt, Botsch 2000, 4.4].
+/// [Kobbelt, Botsch 2000, 4.4]. Vertices keep their numbers.
 /// @param seam one per vertex: 1 on the seam
 /// @return how many were collapsed
 /// @pre the mesh is oriented and manifold, and stays so

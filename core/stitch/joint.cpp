@@ -26,7 +26,7 @@ constexpr double kContinuedTolerance = 0.3;
 /// Collects the open edges on both sides of the seam.
 class SeamEdges {
  public:
-  SeamEdges(Joint& joint, const Scan& scan, const PatchSheet& sheet, double band)
+  SeamEdges(Joint& joint, const PatchScan& scan, const PatchSheet& sheet, double band)
       : joint_(joint), scan_(scan), sheet_(sheet), band_(band) {}
 
   void find();
@@ -59,7 +59,7 @@ class SeamEdges {
   }
 
   Joint& joint_;
-  const Scan& scan_;
+  const PatchScan& scan_;
   const PatchSheet& sheet_;
   double band_;
   std::vector<std::uint8_t> is_near_;        ///< per vertex: on the sheet, close to the patch
@@ -180,7 +180,7 @@ std::vector<VertexSource> sources_of(const Patch& patch, std::uint32_t view) {
 
 }  // namespace
 
-Joint begin_joint(TriangleMesh mesh, const Scan& scan, std::uint32_t view) {
+Joint begin_joint(TriangleMesh mesh, const PatchScan& scan, std::uint32_t view) {
   Joint joint;
   joint.image = project_to_image(mesh.positions, scan.image.view());
   joint.first_new = static_cast<std::uint32_t>(mesh.positions.size());
@@ -231,7 +231,7 @@ void add_patch_faces(Joint& joint, const Patch& patch, StitchReport& report) {
   report.patch_faces = patch.mesh.triangles.size();
 }
 
-void fill_seam(Joint& joint, const Scan& scan, const PatchSheet& sheet,
+void fill_seam(Joint& joint, const PatchScan& scan, const PatchSheet& sheet,
                const StitchOptions& options, StitchReport& report) {
   SeamEdges seam(joint, scan, sheet, options.band);
   seam.find();

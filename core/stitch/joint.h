@@ -6,6 +6,7 @@
 
 #include "core/mesh/triangle_mesh.h"
 #include "core/stitch/image_plane.h"
+#include "core/stitch/patch_scan.h"
 #include "core/stitch/patch_sheet.h"
 #include "core/stitch/stitch.h"
 #include "core/stitch/wide_faces.h"
@@ -27,7 +28,7 @@ struct Joint {
 };
 
 /// The mesh with the vertices of the patch, but without its faces.
-[[nodiscard]] Joint begin_joint(TriangleMesh mesh, const Scan& scan, std::uint32_t view);
+[[nodiscard]] Joint begin_joint(TriangleMesh mesh, const PatchScan& scan, std::uint32_t view);
 
 /// Removes the marked old faces; counts them in the report.
 /// @pre the faces of the patch are not there yet
@@ -39,7 +40,7 @@ void add_patch_faces(Joint& joint, const Patch& patch, StitchReport& report);
 
 /// Fills the strip between the open edges of the patch and those of the old surface near it.
 /// @throws TopologyError if two old faces share a directed edge near the patch
-void fill_seam(Joint& joint, const Scan& scan, const PatchSheet& sheet,
+void fill_seam(Joint& joint, const PatchScan& scan, const PatchSheet& sheet,
                const StitchOptions& options, StitchReport& report);
 
 /// Radius of the sheet that fill_seam() needs, pixels.

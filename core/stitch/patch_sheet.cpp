@@ -17,7 +17,7 @@ double limited_stretch(const glm::dvec2& slope) {
 
 }  // namespace
 
-PatchSheet::PatchSheet(const Scan& scan, int radius) : image_(&scan.image), radius_(radius) {
+PatchSheet::PatchSheet(const PatchScan& scan, int radius) : image_(&scan.image), radius_(radius) {
   const std::vector<Pixel>& pixels = scan.patch.pixels;
   if (pixels.empty()) return;
   first_ = last_ = pixels.front();
@@ -60,7 +60,7 @@ void PatchSheet::add_cells(const Patch& patch) {
   }
 }
 
-std::vector<Pixel> PatchSheet::add_samples(const Scan& scan) {
+std::vector<Pixel> PatchSheet::add_samples(const PatchScan& scan) {
   std::vector<Pixel> front;
   for (const Triangle& triangle : scan.patch.mesh.triangles) {
     for (const std::uint32_t corner : triangle) {

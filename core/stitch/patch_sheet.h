@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/scan/scan.h"
 #include "core/stitch/image_plane.h"
+#include "core/stitch/patch_scan.h"
 
 namespace rangezip {
 
@@ -28,7 +28,7 @@ struct SheetSample {
 class PatchSheet {
  public:
   /// @param radius pixels that the sheet is continued, 1..250
-  PatchSheet(const Scan& scan, int radius);
+  PatchSheet(const PatchScan& scan, int radius);
 
   [[nodiscard]] int radius() const noexcept { return radius_; }
   [[nodiscard]] const RangeImage& image() const noexcept { return *image_; }
@@ -72,7 +72,7 @@ class PatchSheet {
   static constexpr std::uint8_t kFallingDiagonal = 4;  ///< from upper left to lower right
 
   void add_cells(const Patch& patch);
-  std::vector<Pixel> add_samples(const Scan& scan);
+  std::vector<Pixel> add_samples(const PatchScan& scan);
   void grow(std::vector<Pixel> front, const SlopeImage& slopes);
   [[nodiscard]] SheetSample& at(Pixel p) { return samples_[{p.x - origin_.x, p.y - origin_.y}]; }
 

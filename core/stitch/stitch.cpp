@@ -5,9 +5,17 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/mesh/edge_map.h"
+#include "core/mesh/self_intersection.h"
 #include "core/stitch/clean_up.h"
 #include "core/stitch/clear_and_fill.h"
 #include "core/stitch/collapse_seam.h"
+#include "core/stitch/crossing_faces.h"
+#include "core/stitch/face_changes.h"
+#include "core/stitch/lost_pixels.h"
+#include "core/stitch/lost_places.h"
+#include "core/stitch/mesh_part.h"
+#include "core/stitch/withdraw.h"
 #include "core/stitch/zipper.h"
 
 namespace rangezip {
@@ -27,33 +35,191 @@ void check_indices(const TriangleMesh& mesh) {
 }
 
 /// Of the samples of the patch, model units.
-double smallest_pixel_side(const Scan& scan) {
+double smallest_pixel_side(const PatchScan& scan) {
   double side = kNoSample;
   for (const Pixel p : scan.patch.pixels)
     side = std::min(side, scan.image.pixel_size(p));
   return side;
 }
 
+double largest_pixel_side(const PatchScan& scan) {
+  double side = 0.0;
+  for (const Pixel p : scan.patch.pixels)
+    side = std::max(side, scan.image.pixel_size(p));
+  return side;
+}
+
+/// Where the old surface was a face must be within this many pixel sides.
+constexpr double kLostDistance = 1.0;
+
+/// One way of joining a patch to the part of the mesh around it.
+class Attempt {
+ public:
+  Attempt(const MeshPart& part, const ImagePlane& image, const PatchScan& scan,
+          const StitchOptions& options)
+      : part_(part), image_(image), scan_(scan), options_(options) {}
+
+  void join();
+  void roll_back_crossings();
+  [[nodiscard]] bool is_manifold() const;
+  [[nodiscard]] std::vector<Pixel> lost_pixels();
+
+  [[nodiscard]] const TriangleMesh& mesh() const { return joint_.mesh; }
+  [[nodiscard]] const FaceChanges& changes() const { return changes_; }
+  [[nodiscard]] const StitchReport& report() const { return report_; }
+
+ private:
+  void clean();
+  [[nodiscard]] std::vector<FaceOrigin> origins_of(std::span<const std::uint32_t> made) const;
+  void remove(std::span<const std::uint32_t> faces, std::span<const FaceOrigin> origins);
+
+  const MeshPart& part_;
+  const ImagePlane& image_;  ///< of the part
+  PatchScan scan_;
+  const StitchOptions& options_;
+  Joint joint_;
+  FaceChanges changes_;
+  StitchReport report_;
+};
+
+void Attempt::clean() {
+  const CleanUpReport cleaned =
+      clean_up(joint_.mesh, joint_.touched, joint_.seam, options_.min_component, part_.is_rim);
+  report_.opened_fans += cleaned.opened_fans;
+  report_.split_vertices += cleaned.split_vertices;
+  report_.dropped_components += cleaned.dropped_components;
+  report_.dropped_faces += cleaned.dropped_faces;
+}
+
+void Attempt::join() {
+  const bool is_zipper = options_.method == StitchMethod::zipper;
+  joint_ = is_zipper ? zipper(part_.mesh, scan_, options_, report_)
+                     : clear_and_fill(part_.mesh, scan_, options_, report_);
+  clean();
+  if (is_zipper && options_.collapse_ratio > 0.0) {
+    report_.collapsed_edges = collapse_short_seam_edges(
+        joint_.mesh, joint_.seam, options_.collapse_ratio * smallest_pixel_side(scan_));
+  }
+}
+
+/// Faces of the patch are known by the directed edge from their lowest corner on.
+std::vector<FaceOrigin> Attempt::origins_of(std::span<const std::uint32_t> made) const {
+  EdgeMap of_patch(3 * scan_.patch.mesh.triangles.size());
+  for (const Triangle& t : scan_.patch.mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      of_patch.insert(joint_.vertex_of_patch[t[k]], joint_.vertex_of_patch[t[(k + 1) % 3]],
+                      joint_.vertex_of_patch[t[(k + 2) % 3]]);
+    }
+  }
+  std::vector<FaceOrigin> origins(joint_.mesh.triangles.size(), FaceOrigin::old);
+  for (const std::uint32_t f : made) {
+    const Triangle& face = joint_.mesh.triangles[f];
+    origins[f] = of_patch.find(face[0], face[1]) == face[2] ? FaceOrigin::patch : FaceOrigin::seam;
+  }
+  return origins;
+}
+
+void Attempt::remove(std::span<const std::uint32_t> faces, std::span<const FaceOrigin> origins) {
+  joint_.touched.assign(joint_.mesh.positions.size(), 0);
+  std::vector<std::uint8_t> is_removed(joint_.mesh.triangles.size(), 0);
+  for (const std::uint32_t f : faces) {
+    is_removed[f] = 1;
+    ++(origins[f] == FaceOrigin::patch ? report_.crossing_patch_faces
+                                       : report_.crossing_seam_faces);
+    for (const std::uint32_t v : joint_.mesh.triangles[f])
+      joint_.touched[v] = 1;
+  }
+  std::size_t kept = 0;
+  for (std::size_t f = 0; f < is_removed.size(); ++f) {
+    if (is_removed[f] == 0) joint_.mesh.triangles[kept++] = joint_.mesh.triangles[f];
+  }
+  joint_.mesh.triangles.resize(kept);
+}
+
+/// Every round removes a face at least, so there is a last one. What is left of faces that did not
+/// cross does not either, unless vertices were split, and so moved.
+void Attempt::roll_back_crossings() {
+  for (bool has_moved = true; has_moved;) {
+    changes_ = find_face_changes(part_.mesh, joint_.mesh);
+    const std::vector<FacePair> pairs = self_intersections(joint_.mesh, changes_.made);
+    if (pairs.empty()) return;
+    const std::vector<FaceOrigin> origins = origins_of(changes_.made);
+    remove(choose_crossing_faces(pairs, origins), origins);
+    const std::size_t split = report_.split_vertices;
+    clean();
+    has_moved = report_.split_vertices > split;
+  }
+  changes_ = find_face_changes(part_.mesh, joint_.mesh);
+}
+
+/// Where faces came or went; elsewhere nothing has changed.
+bool Attempt::is_manifold() const {
+  std::vector<std::uint8_t> marked(joint_.mesh.positions.size(), 0);
+  for (const std::uint32_t f : changes_.made) {
+    for (const std::uint32_t v : joint_.mesh.triangles[f])
+      marked[v] = 1;
+  }
+  for (const std::uint32_t f : changes_.gone) {
+    for (const std::uint32_t v : part_.mesh.triangles[f])
+      marked[v] = 1;
+  }
+  return is_manifold_at(joint_.mesh, marked);
+}
+
+std::vector<Pixel> Attempt::lost_pixels() {
+  const View& view = scan_.image.view();
+  const std::size_t known = joint_.image.points.size();  // vertices split since have no image yet
+  const ImagePlane rest = project_to_image(std::span(joint_.mesh.positions).subspan(known), view);
+  joint_.image.points.insert(joint_.image.points.end(), rest.points.begin(), rest.points.end());
+  joint_.image.depths.insert(joint_.image.depths.end(), rest.depths.begin(), rest.depths.end());
+  const SeenMesh before{part_.mesh, image_};
+  const SeenMesh after{joint_.mesh, joint_.image};
+  std::vector<Pixel> lost = find_lost_pixels(before, after, changes_, view);
+  const double distance = kLostDistance * largest_pixel_side(scan_);
+  const std::vector<Pixel> places = find_lost_places(before, after, changes_, distance);
+  lost.insert(lost.end(), places.begin(), places.end());
+  return lost;
+}
+
+/// Where a hole is in the way the patch is withdrawn from it by this many pixels at first, and by
+/// so many times more each time; after the last one altogether.
+constexpr int kFirstWithdrawal = 2;
+constexpr int kWithdrawalGrowth = 3;
+constexpr int kWithdrawals = 5;
+
+/// The part is cut out this much wider than the seam can be, pixels.
+constexpr int kPartMargin = 2;
+
 }  // namespace
 
 StitchResult stitch(TriangleMesh mesh, const Scan& scan, const StitchOptions& options) {
   check_indices(mesh);
   if (scan.patch.mesh.empty()) return {std::move(mesh), {}};
-  StitchReport report;
-  const bool is_zipper = options.method == StitchMethod::zipper;
-  Joint joint = is_zipper ? zipper(std::move(mesh), scan, options, report)
-                          : clear_and_fill(std::move(mesh), scan, options, report);
-  const CleanUpReport cleaned =
-      clean_up(joint.mesh, std::move(joint.touched), joint.seam, options.min_component);
-  report.opened_fans = cleaned.opened_fans;
-  report.split_vertices = cleaned.split_vertices;
-  report.dropped_components = cleaned.dropped_components;
-  report.dropped_faces = cleaned.dropped_faces;
-  if (is_zipper && options.collapse_ratio > 0.0) {
-    report.collapsed_edges = collapse_short_seam_edges(
-        joint.mesh, joint.seam, options.collapse_ratio * smallest_pixel_side(scan));
+  const View& view = scan.image.view();
+  const MeshPart part =
+      cut_out_part(mesh, view, scan.patch.pixels, sheet_radius(options) + kPartMargin);
+  const ImagePlane image = project_to_image(part.mesh.positions, view);
+  Patch patch = scan.patch;
+  int radius = kFirstWithdrawal;
+  for (int withdrawals = 0; !patch.mesh.empty(); ++withdrawals) {
+    Attempt attempt(part, image, PatchScan(scan, patch, part.face_in_whole), options);
+    attempt.join();
+    attempt.roll_back_crossings();
+    if (!attempt.is_manifold()) break;
+    const std::vector<Pixel> lost = attempt.lost_pixels();
+    StitchReport report = attempt.report();
+    report.withdrawn_faces = scan.patch.mesh.triangles.size() - patch.mesh.triangles.size();
+    if (lost.empty()) {
+      put_back(mesh, part, attempt.mesh(), attempt.changes());
+      return {std::move(mesh), report};
+    }
+    if (withdrawals == kWithdrawals) break;
+    patch = withdraw_near(patch, lost, radius);
+    radius *= kWithdrawalGrowth;
   }
-  return {std::move(joint.mesh), report};
+  StitchReport report;
+  report.withdrawn_faces = scan.patch.mesh.triangles.size();
+  return {std::move(mesh), report};
 }
 
 }  // namespace rangezip

@@ -58,9 +58,16 @@ std::vector<std::array<std::uint32_t, 2>> boundary_of(const Patch& patch, const 
   return boundary;
 }
 
+/// The place of a number in an ascending list; kNoPrimitive if it is not there.
+PrimitiveId rank_of(PrimitiveId number, std::span<const std::uint32_t> numbers) {
+  const auto found = std::lower_bound(numbers.begin(), numbers.end(), number);
+  if (found == numbers.end() || *found != number) return kNoPrimitive;
+  return static_cast<PrimitiveId>(found - numbers.begin());
+}
+
 class Zipper {
  public:
-  Zipper(Joint& joint, const Scan& scan, const StitchOptions& options, StitchReport& report)
+  Zipper(Joint& joint, const PatchScan& scan, const StitchOptions& options, StitchReport& report)
       : joint_(joint),
         scan_(scan),
         options_(options),
@@ -86,7 +93,7 @@ class Zipper {
   [[nodiscard]] std::vector<Triangle> faces_beside_patch();
 
   Joint& joint_;
-  const Scan& scan_;
+  const PatchScan& scan_;
   const StitchOptions& options_;
   StitchReport& report_;
   PatchSheet patch_sheet_;
@@ -124,11 +131,11 @@ std::vector<SheetMesh::FaceHandle> Zipper::start_faces(
 
 SheetMesh::FaceHandle Zipper::face_in_sheet(Pixel pixel) const {
   if (!scan_.image.extent().contains(pixel)) return SheetMesh::FaceHandle();
-  const PrimitiveId face = scan_.correspondence.face[pixel];
-  const auto& in_whole = sheet_.face_in_whole;
-  const auto found = std::lower_bound(in_whole.begin(), in_whole.end(), face);
-  if (found == in_whole.end() || *found != face) return SheetMesh::FaceHandle();
-  return SheetMesh::FaceHandle(static_cast<int>(found - in_whole.begin()));
+  PrimitiveId face = scan_.seen_face[pixel];
+  if (!scan_.face_in_seen.empty()) face = rank_of(face, scan_.face_in_seen);
+  face = rank_of(face, sheet_.face_in_whole);
+  return face == kNoPrimitive ? SheetMesh::FaceHandle()
+                              : SheetMesh::FaceHandle(static_cast<int>(face));
 }
 
 /// The vertex of the patch becomes one with an old one that has the same image.
@@ -228,7 +235,7 @@ void Zipper::join() {
 
 }  // namespace
 
-Joint zipper(TriangleMesh mesh, const Scan& scan, const StitchOptions& options,
+Joint zipper(TriangleMesh mesh, const PatchScan& scan, const StitchOptions& options,
              StitchReport& report) {
   Joint joint = begin_joint(std::move(mesh), scan, options.view);
   Zipper zip(joint, scan, options, report);

@@ -12,7 +12,7 @@ namespace rangezip {
 /// inserted, where it leaves the old surface, is joined by a strip as in clear_and_fill().
 /// Vertices where fans touch are not yet opened, short edges not yet collapsed: see stitch().
 /// @throws TopologyError as stitch() does
-[[nodiscard]] Joint zipper(TriangleMesh mesh, const Scan& scan, const StitchOptions& options,
+[[nodiscard]] Joint zipper(TriangleMesh mesh, const PatchScan& scan, const StitchOptions& options,
                            StitchReport& report);
 
 }  // namespace rangezip

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/finish/border_gaps.h"
-#include "core/finish/self_intersection.h"
 #include "core/mesh/mesh_report.h"
+#include "core/mesh/self_intersection.h"
 #include "tests/core/finish/shapes.h"
 
 namespace rangezip {

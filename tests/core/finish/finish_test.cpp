@@ -9,8 +9,8 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/finish/bridge_loops.h"
-#include "core/finish/self_intersection.h"
 #include "core/mesh/mesh_report.h"
+#include "core/mesh/self_intersection.h"
 #include "tests/core/finish/shapes.h"
 
 namespace rangezip {

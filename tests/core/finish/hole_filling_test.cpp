@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "core/base/error.h"
-#include "core/finish/self_intersection.h"
 #include "core/mesh/mesh_report.h"
+#include "core/mesh/self_intersection.h"
 #include "tests/core/finish/shapes.h"
 
 namespace rangezip {

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "core/finish/self_intersection.h"
+#include "core/mesh/self_intersection.h"
 #include "tests/core/finish/shapes.h"
 
 namespace rangezip {

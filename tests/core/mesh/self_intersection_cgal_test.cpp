@@ -6,8 +6,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "core/finish/self_intersection.h"
-#include "core/finish/triangle_overlap.h"
+#include "core/mesh/self_intersection.h"
+#include "core/mesh/triangle_overlap.h"
 #include "tests/core/finish/shapes.h"
 
 namespace rangezip {

@@ -1,4 +1,4 @@
-#include "core/finish/self_intersection.h"
+#include "core/mesh/self_intersection.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <random>
 
 #include "core/base/parallel.h"
-#include "core/finish/triangle_overlap.h"
+#include "core/mesh/triangle_overlap.h"
 #include "tests/core/finish/shapes.h"
 
 namespace rangezip {

@@ -1,10 +1,10 @@
-#include "core/finish/triangle_overlap.h"
+#include "core/mesh/triangle_overlap.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "core/finish/exact_predicates.h"
+#include "core/mesh/exact_predicates.h"
 
 namespace rangezip {
 namespace {

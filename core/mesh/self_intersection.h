@@ -11,14 +11,15 @@ namespace rangezip {
 
 /// All pairs of triangles (lower index first, sorted) that cross, overlap, or touch other than in
 /// the vertex or edge they share: neighbours count only if they fold onto or pass through each
-/// other (core/finish/triangle_overlap.h). A triangle without area pairs with itself, {i, i}, and
+/// other (core/mesh/triangle_overlap.h). A triangle without area pairs with itself, {i, i}, and
 /// with no other. Exact: decided by signs of determinants computed without error. The same verdict
 /// as CGAL's Polygon_mesh_processing::self_intersections.
 /// Cost: a uniform grid over the triangles, about linear for meshes of even size.
 [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(
     const TriangleMesh& mesh);
 
-/// The same, only pairs with at least one triangle of `changed` (indices, any order).
+/// The same, only pairs with at least one triangle of `changed` (indices, any order). But for one
+/// look at every triangle, the cost is that of the triangles in the box around the changed ones.
 [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(
     const TriangleMesh& mesh, std::span<const std::uint32_t> changed);
 

@@ -1,12 +1,14 @@
-#include "core/finish/self_intersection.h"
+#include "core/mesh/self_intersection.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
+#include <utility>
 
 #include "core/base/parallel.h"
-#include "core/finish/triangle_overlap.h"
+#include "core/mesh/triangle_overlap.h"
 
 namespace rangezip {
 namespace {
@@ -107,33 +109,45 @@ bool boxes_meet(const Box& a, const Box& b) {
          b.lower.y <= a.upper.y && a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
 }
 
-/// Box, state and mean side of every triangle.
+Box box_of(const TriangleMesh& mesh, const Triangle& triangle) {
+  Box box;
+  for (const std::uint32_t corner : triangle)
+    box.add(mesh.positions[corner]);
+  return box;
+}
+
+/// Box, state and mean side of the triangles that take part, by their rank among these.
 class Triangles {
  public:
-  explicit Triangles(const TriangleMesh& mesh)
-      : mesh_(mesh), boxes_(mesh.triangles.size()), degenerate_(mesh.triangles.size()) {
-    parallel_for(mesh.triangles.size(), kTrianglesPerBlock,
-                 [&](std::size_t begin, std::size_t end) {
-                   for (std::size_t i = begin; i < end; ++i) {
-                     for (const std::uint32_t corner : mesh.triangles[i])
-                       boxes_[i].add(mesh.positions[corner]);
-                     degenerate_[i] = is_degenerate(mesh, mesh.triangles[i]) ? 1 : 0;
-                   }
-                 });
+  /// @param numbers in the mesh, ascending
+  Triangles(const TriangleMesh& mesh, std::vector<std::uint32_t> numbers)
+      : mesh_(mesh),
+        numbers_(std::move(numbers)),
+        boxes_(numbers_.size()),
+        degenerate_(numbers_.size()) {
+    parallel_for(numbers_.size(), kTrianglesPerBlock, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const Triangle& triangle = mesh.triangles[numbers_[i]];
+        boxes_[i] = box_of(mesh, triangle);
+        degenerate_[i] = is_degenerate(mesh, triangle) ? 1 : 0;
+      }
+    });
     for (const Box& box : boxes_)
       bounds_.add(box);
   }
 
   [[nodiscard]] std::size_t size() const { return boxes_.size(); }
+  [[nodiscard]] std::uint32_t number(std::size_t i) const { return numbers_[i]; }
   [[nodiscard]] const Box& box(std::size_t i) const { return boxes_[i]; }
   [[nodiscard]] const Box& bounds() const { return bounds_; }
   [[nodiscard]] bool is_degenerate_at(std::size_t i) const { return degenerate_[i] != 0; }
   [[nodiscard]] bool meet(std::uint32_t i, std::uint32_t j) const {
-    return overlap(mesh_, mesh_.triangles[i], mesh_.triangles[j]);
+    return overlap(mesh_, mesh_.triangles[numbers_[i]], mesh_.triangles[numbers_[j]]);
   }
   [[nodiscard]] double mean_side() const {
     double total = 0.0;
-    for (const Triangle& t : mesh_.triangles) {
+    for (const std::uint32_t number : numbers_) {
+      const Triangle& t = mesh_.triangles[number];
       total += glm::length(mesh_.positions[t[1]] - mesh_.positions[t[0]]);
     }
     return total / static_cast<double>(std::max<std::size_t>(1, size()));
@@ -141,6 +155,7 @@ class Triangles {
 
  private:
   const TriangleMesh& mesh_;
+  std::vector<std::uint32_t> numbers_;
   std::vector<Box> boxes_;
   std::vector<std::uint8_t> degenerate_;
   Box bounds_;
@@ -251,11 +266,29 @@ void collect_large(const Triangles& triangles, std::span<const std::uint32_t> la
   append_blocks(blocks, pairs);
 }
 
-/// `changed` flags triangles, or is empty: all.
-std::vector<Pair> find_pairs(const TriangleMesh& mesh, std::span<const std::uint8_t> changed) {
+std::vector<std::uint32_t> all_of(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> numbers(mesh.triangles.size());
+  std::iota(numbers.begin(), numbers.end(), 0U);
+  return numbers;
+}
+
+/// Those in the box around the changed ones.
+std::vector<std::uint32_t> around(const TriangleMesh& mesh,
+                                  std::span<const std::uint32_t> changed) {
+  Box bounds;
+  for (const std::uint32_t i : changed)
+    bounds.add(box_of(mesh, mesh.triangles[i]));
+  std::vector<std::uint32_t> numbers;
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (boxes_meet(bounds, box_of(mesh, mesh.triangles[i]))) numbers.push_back(i);
+  }
+  return numbers;
+}
+
+/// `changed` flags triangles by rank, or is empty: all.
+std::vector<Pair> find_pairs(const Triangles& triangles, std::span<const std::uint8_t> changed) {
   std::vector<Pair> pairs;
-  if (mesh.triangles.empty()) return pairs;
-  const Triangles triangles(mesh);
+  if (triangles.size() == 0) return pairs;
   const std::size_t max_cells = kCellsPerTriangle * triangles.size();
   const CellGrid grid(triangles.bounds(), kSidesPerCell * triangles.mean_side(), max_cells);
   std::vector<std::uint8_t> wanted;
@@ -273,6 +306,10 @@ std::vector<Pair> find_pairs(const TriangleMesh& mesh, std::span<const std::uint
     const bool asked = changed.empty() || changed[i] != 0;
     if (asked && triangles.is_degenerate_at(i)) pairs.emplace_back(i, i);
   }
+  for (auto& [first, second] : pairs) {
+    first = triangles.number(first);
+    second = triangles.number(second);
+  }
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
@@ -280,16 +317,20 @@ std::vector<Pair> find_pairs(const TriangleMesh& mesh, std::span<const std::uint
 }  // namespace
 
 std::vector<Pair> self_intersections(const TriangleMesh& mesh) {
-  return find_pairs(mesh, {});
+  return find_pairs(Triangles(mesh, all_of(mesh)), {});
 }
 
 std::vector<Pair> self_intersections(const TriangleMesh& mesh,
                                      std::span<const std::uint32_t> changed) {
   if (changed.empty()) return {};
-  std::vector<std::uint8_t> flags(mesh.triangles.size(), 0);
+  const Triangles triangles(mesh, around(mesh, changed));
+  std::vector<std::uint8_t> is_changed(mesh.triangles.size(), 0);
   for (const std::uint32_t i : changed)
-    flags[i] = 1;
-  return find_pairs(mesh, flags);
+    is_changed[i] = 1;
+  std::vector<std::uint8_t> flags(triangles.size());
+  for (std::size_t rank = 0; rank < flags.size(); ++rank)
+    flags[rank] = is_changed[triangles.number(rank)];
+  return find_pairs(triangles, flags);
 }
 
 }  // namespace rangezip

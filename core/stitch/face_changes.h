@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/mesh/triangle_mesh.h"
+
+namespace rangezip {
+
+/// How a mesh differs from what it was, face by face.
+struct FaceChanges {
+  std::vector<std::uint32_t> gone;  ///< faces of the mesh before that are not in it after
+  std::vector<std::uint32_t> made;  ///< faces of the mesh after that were not in it before
+};
+
+/// Compares two meshes whose vertices have the same numbers, those after being more. A face is the
+/// same if it has the same corners, at the same places, in the same direction. O(faces).
+/// @pre both are oriented: no directed edge in two faces
+[[nodiscard]] FaceChanges find_face_changes(const TriangleMesh& before, const TriangleMesh& after);
+
+}  // namespace rangezip

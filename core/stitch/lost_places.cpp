@@ -1,0 +1,162 @@
+#include "core/stitch/lost_places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/mesh/coverage.h"
+
+namespace rangezip {
+
+namespace {
+
+/// Places of the surface that is gone, and where they are in the image.
+struct Places {
+  std::vector<Vec3> positions;
+  std::vector<Pixel> pixels;
+};
+
+/// The centroid or, of a face with sides over `spacing`, a lattice finer than that.
+void add_inner_places(const SeenMesh& before, const Triangle& face, double spacing,
+                      Places& places) {
+  constexpr double kMostSteps = 64.0;  // of a huge face: what is left of it shows a pixel
+  const double steps = std::ceil(longest_side(before.mesh, face) / spacing);
+  const int n = static_cast<int>(std::clamp(steps, 1.0, kMostSteps));
+  const auto add = [&](const Vec3& weights) {
+    Vec3 position{0.0};
+    Vec2 image{0.0};
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t v = face[static_cast<std::size_t>(k)];
+      position += weights[k] * before.mesh.positions[v];
+      image += weights[k] * in_pixels(before.image.points[v]);
+    }
+    places.positions.push_back(position);
+    places.pixels.push_back(
+        {static_cast<int>(std::floor(image.x + 0.5)), static_cast<int>(std::floor(image.y + 0.5))});
+  };
+  if (n == 1) add(Vec3(1.0 / 3.0));
+  for (int i = 0; n > 1 && i <= n; ++i) {
+    for (int j = 0; i + j <= n; ++j) {
+      if (i < n && j < n && i + j > 0) add(Vec3{i, j, n - i - j} / static_cast<double>(n));
+    }
+  }
+}
+
+Places places_of(const SeenMesh& before, const TriangleMesh& after, const FaceChanges& changes,
+                 double spacing) {
+  std::vector<std::uint8_t> is_done(before.mesh.positions.size(), 0);
+  for (const Triangle& face : after.triangles) {
+    for (const std::uint32_t v : face) {
+      if (v < is_done.size() && after.positions[v] == before.mesh.positions[v]) is_done[v] = 1;
+    }
+  }
+  Places places;
+  for (const std::uint32_t f : changes.gone) {
+    const Triangle& face = before.mesh.triangles[f];
+    const auto has_image = [&](std::uint32_t v) { return before.image.has_image(v); };
+    if (!std::all_of(face.begin(), face.end(), has_image)) continue;
+    for (const std::uint32_t v : face) {
+      if (is_done[v] != 0) continue;
+      is_done[v] = 1;
+      places.positions.push_back(before.mesh.positions[v]);
+      places.pixels.push_back(nearest_pixel(before.image.points[v]));
+    }
+    add_inner_places(before, face, spacing, places);
+  }
+  return places;
+}
+
+/// The new vertices by the pixels that they are nearest to, for a first quick answer.
+class NewVertices {
+ public:
+  NewVertices(const SeenMesh& after, const FaceChanges& changes, std::size_t first_new)
+      : mesh_(after.mesh) {
+    std::vector<std::uint32_t> vertices;
+    for (const std::uint32_t f : changes.made) {
+      for (const std::uint32_t v : after.mesh.triangles[f]) {
+        if (v >= first_new && after.image.has_image(v)) vertices.push_back(v);
+      }
+    }
+    if (vertices.empty()) return;
+    first_ = nearest_pixel(after.image.points[vertices.front()]);
+    Pixel last = first_;
+    for (const std::uint32_t v : vertices) {
+      const Pixel p = nearest_pixel(after.image.points[v]);
+      first_ = {std::min(first_.x, p.x), std::min(first_.y, p.y)};
+      last = {std::max(last.x, p.x), std::max(last.y, p.y)};
+    }
+    at_.reset({last.x - first_.x + 1, last.y - first_.y + 1}, kNone);
+    for (const std::uint32_t v : vertices) {
+      const Pixel p = nearest_pixel(after.image.points[v]);
+      at_[{p.x - first_.x, p.y - first_.y}] = v;
+    }
+  }
+
+  /// Whether the one at the pixel is within `distance` of the place.
+  [[nodiscard]] bool has_near(const Vec3& place, Pixel pixel, double distance) const {
+    const Pixel local{pixel.x - first_.x, pixel.y - first_.y};
+    if (!at_.extent().contains(local) || at_[local] == kNone) return false;
+    const Vec3 away = mesh_.positions[at_[local]] - place;
+    return glm::dot(away, away) <= distance * distance;
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  const TriangleMesh& mesh_;
+  Pixel first_;
+  Grid<std::uint32_t> at_;
+};
+
+void forget_those_near(const NewVertices& vertices, double distance, Places& places) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < places.positions.size(); ++i) {
+    if (vertices.has_near(places.positions[i], places.pixels[i], distance)) continue;
+    places.positions[kept] = places.positions[i];
+    places.pixels[kept++] = places.pixels[i];
+  }
+  places.positions.resize(kept);
+  places.pixels.resize(kept);
+}
+
+/// The faces in the box around the places.
+TriangleMesh around(const TriangleMesh& mesh, const std::vector<Vec3>& places, double distance) {
+  Box bounds;
+  for (const Vec3& place : places)
+    bounds.add(place);
+  bounds.lower -= Vec3(distance);
+  bounds.upper += Vec3(distance);
+  TriangleMesh part;
+  part.positions = mesh.positions;
+  for (const Triangle& face : mesh.triangles) {
+    Box box;
+    for (const std::uint32_t v : face)
+      box.add(mesh.positions[v]);
+    bool meets = true;
+    for (int axis = 0; axis < 3; ++axis) {
+      meets =
+          meets && box.lower[axis] <= bounds.upper[axis] && bounds.lower[axis] <= box.upper[axis];
+    }
+    if (meets) part.triangles.push_back(face);
+  }
+  remove_unused_vertices(part);
+  return part;
+}
+
+}  // namespace
+
+std::vector<Pixel> find_lost_places(const SeenMesh& before, const SeenMesh& after,
+                                    const FaceChanges& changes, double distance) {
+  Places places = places_of(before, after.mesh, changes, distance);
+  const NewVertices vertices(after, changes, before.mesh.positions.size());
+  forget_those_near(vertices, distance, places);
+  if (places.positions.empty()) return {};
+  const std::vector<std::uint8_t> covered =
+      covered_points(places.positions, around(after.mesh, places.positions, distance), distance);
+  std::vector<Pixel> lost;
+  for (std::size_t i = 0; i < covered.size(); ++i) {
+    if (covered[i] == 0) lost.push_back(places.pixels[i]);
+  }
+  return lost;
+}
+
+}  // namespace rangezip

@@ -1,0 +1,40 @@
+#include "tests/support/random_sessions.h"
+
+#include <catch2/catch.hpp>
+
+#include "core/base/parallel.h"
+
+using namespace rangezip;
+
+TEST_CASE(
+    "after every command of a hundred random sessions the mesh is clean and covers what it did",
+    "[compare]") {
+  // benchmarks/robustness runs more of them; other seeds than there.
+  constexpr std::uint64_t kSeed = 20'000;
+  constexpr std::size_t kSessions = 100;
+  std::vector<sessions::Outcome> outcomes(kSessions);
+  parallel_for(kSessions, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      outcomes[i] = sessions::run_session(sessions::make_session(kSeed, i));
+  });
+  std::size_t stitched = 0;
+  for (std::size_t i = 0; i < kSessions; ++i) {
+    for (const sessions::Step& step : outcomes[i].steps) {
+      CAPTURE(kSeed, i, step.kind, step.what);
+      for (const auto& [cause, count] : step.faults.by_cause()) {
+        CAPTURE(cause);
+        CHECK(count == 0);
+      }
+    }
+    stitched += outcomes[i].repairs["patch_faces"];
+  }
+  CHECK(stitched > 100'000);
+}
+
+TEST_CASE("a session is the same whenever it is made", "[compare]") {
+  const auto a = sessions::make_session(5, 7);
+  const auto b = sessions::make_session(5, 7);
+  CHECK(a.model == b.model);
+  CHECK(a.commands.size() == b.commands.size());
+  CHECK(sessions::run_session(a).faces == sessions::run_session(b).faces);
+}
