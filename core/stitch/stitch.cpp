@@ -38,10 +38,11 @@ double smallest_pixel_side(const Scan& scan) {
 
 StitchResult stitch(TriangleMesh mesh, const Scan& scan, const StitchOptions& options) {
   check_indices(mesh);
-  if (scan.patch.mesh.empty()) return {std::move(mesh), {}};
+  if (scan.patch.mesh.empty()) return {.mesh = std::move(mesh)};
   StitchReport report;
+  StitchRecord record;
   const bool is_zipper = options.method == StitchMethod::zipper;
-  Joint joint = is_zipper ? zipper(std::move(mesh), scan, options, report)
+  Joint joint = is_zipper ? zipper(std::move(mesh), scan, options, report, record)
                           : clear_and_fill(std::move(mesh), scan, options, report);
   const CleanUpReport cleaned =
       clean_up(joint.mesh, std::move(joint.touched), joint.seam, options.min_component);
@@ -53,7 +54,7 @@ StitchResult stitch(TriangleMesh mesh, const Scan& scan, const StitchOptions& op
     report.collapsed_edges = collapse_short_seam_edges(
         joint.mesh, joint.seam, options.collapse_ratio * smallest_pixel_side(scan));
   }
-  return {std::move(joint.mesh), report};
+  return {std::move(joint.mesh), report, std::move(record)};
 }
 
 }  // namespace rangezip
