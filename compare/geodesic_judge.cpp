@@ -10,9 +10,11 @@
 #include <array>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
 #include "compare/mesh_values.h"
 #include "core/base/error.h"
@@ -30,6 +32,7 @@ using Traits = CGAL::Surface_mesh_shortest_path_traits<Kernel, SurfaceMesh>;
 using ShortestPath = CGAL::Surface_mesh_shortest_path<Traits>;
 
 constexpr std::size_t kPathsPerBlock = 16;
+constexpr double kInside = 1e-10;   ///< least weight of a corner
 constexpr double kRounding = 1e-7;  ///< of a length: some roundings of floating-point unfolding
 
 /// The distance from a point to a face, model units.
@@ -56,29 +59,62 @@ std::vector<std::uint32_t> reachable_faces(const TriangleMesh& mesh, const EdgeM
   return faces;
 }
 
-/// Face i of the result is faces[i]. What touches in one vertex only is parted.
-SurfaceMesh cut_out(const TriangleMesh& mesh, const std::vector<std::uint32_t>& faces) {
+/// The form in which CGAL takes faces. Polygon i is face i of those that were asked for.
+struct Soup {
   std::vector<Kernel::Point_3> points;
   std::vector<std::array<std::size_t, 3>> polygons;
+
+  std::size_t add(const Vec3& p) {
+    points.emplace_back(p.x, p.y, p.z);
+    return points.size() - 1;
+  }
+};
+
+/// The faces as they hang together in the mesh.
+Soup part_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& faces) {
+  Soup soup;
   std::unordered_map<std::uint32_t, std::size_t> local;
   for (const std::uint32_t f : faces) {
-    auto& polygon = polygons.emplace_back();
+    auto& polygon = soup.polygons.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t v = mesh.triangles[f][k];
-      const auto [place, is_new] = local.emplace(v, points.size());
-      const Vec3& p = mesh.positions[v];
-      if (is_new) points.emplace_back(p.x, p.y, p.z);
-      polygon[k] = place->second;
+      const auto known = local.find(v);
+      polygon[k] = known != local.end() ? known->second : soup.add(mesh.positions[v]);
+      local[v] = polygon[k];
     }
   }
-  pmp::orient_polygon_soup(points, polygons);
+  return soup;
+}
+
+/// The faces as a strip: each hangs on the one before it only, also where it meets others.
+Soup strip_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& faces) {
+  Soup soup;
+  std::map<std::uint32_t, std::size_t> last;
+  for (const std::uint32_t f : faces) {
+    auto& polygon = soup.polygons.emplace_back();
+    std::map<std::uint32_t, std::size_t> here;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = mesh.triangles[f][k];
+      const auto shared = last.find(v);
+      polygon[k] = shared != last.end() ? shared->second : soup.add(mesh.positions[v]);
+      here[v] = polygon[k];
+    }
+    last = std::move(here);
+  }
+  return soup;
+}
+
+/// What touches in one vertex only is parted.
+SurfaceMesh surface_of(Soup soup) {
+  pmp::orient_polygon_soup(soup.points, soup.polygons);
   SurfaceMesh surface;
-  pmp::polygon_soup_to_polygon_mesh(points, polygons, surface);
+  pmp::polygon_soup_to_polygon_mesh(soup.points, soup.polygons, surface);
   return surface;
 }
 
 /// Where a point of a face is in it, as CGAL wants it: by weights of the corners in the order of
-/// the face's halfedges, none negative.
+/// the face's halfedges. From places on an edge CGAL 5.5 does not find the shortest path: they are
+/// moved inside.
 ShortestPath::Face_location location_of(const SurfaceMesh& surface, SurfaceMesh::Face_index face,
                                         const Vec3& point) {
   std::array<Vec3, 3> corners;
@@ -88,14 +124,13 @@ ShortestPath::Face_location location_of(const SurfaceMesh& surface, SurfaceMesh:
     corner = {p.x(), p.y(), p.z()};
     e = surface.next(e);
   }
-  constexpr double kOnEdge = 1e-12;
   const Vec3 normal = area_vector(corners[0], corners[1], corners[2]);
   std::array<double, 3> weights{};
   double sum = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 part = area_vector(point, corners[(k + 1) % 3], corners[(k + 2) % 3]);
     weights[k] = glm::dot(part, normal) / glm::dot(normal, normal);
-    if (!(weights[k] > kOnEdge)) weights[k] = 0.0;
+    weights[k] = std::max(weights[k], kInside);
     sum += weights[k];
   }
   return {face, {weights[0] / sum, weights[1] / sum, weights[2] / sum}};
@@ -122,16 +157,13 @@ double deviation_of(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   return largest;
 }
 
-/// The shortest path over some of the faces between the ends of another path; empty if there is
-/// none. @pre its first face is faces[0]
-std::vector<Vec3> shortest_over(const TriangleMesh& mesh, const std::vector<std::uint32_t>& faces,
-                                const SurfacePath& ends) {
-  const auto end = std::find(faces.begin(), faces.end(), ends.faces.back());
-  if (end == faces.end()) return {};
-  const SurfaceMesh surface = cut_out(mesh, faces);
-  const auto end_face = SurfaceMesh::Face_index(static_cast<std::uint32_t>(end - faces.begin()));
-  const auto from = location_of(surface, SurfaceMesh::Face_index(0), ends.points.front());
-  const auto to = location_of(surface, end_face, ends.points.back());
+/// The shortest path over a surface from its face 0 to another, between the ends of a path; empty
+/// if there is none.
+std::vector<Vec3> shortest_over(const SurfaceMesh& surface, std::size_t end_face,
+                                const SurfacePath& path) {
+  const auto from = location_of(surface, SurfaceMesh::Face_index(0), path.points.front());
+  const auto to = location_of(
+      surface, SurfaceMesh::Face_index(static_cast<std::uint32_t>(end_face)), path.points.back());
   std::vector<Kernel::Point_3> found;
   try {
     ShortestPath shortest(surface);
@@ -152,9 +184,14 @@ GeodesicMatch judge(const TriangleMesh& mesh, const EdgeMap& edges, const Surfac
   if (path.faces.size() == 1) {
     return {.line = line, .length = line, .shortest = line, .is_judged = true};
   }
-  const std::vector<Vec3> through = shortest_over(mesh, path.faces, path);
+  const std::vector<std::uint32_t> reachable = reachable_faces(mesh, edges, path, line);
+  const auto end = std::find(reachable.begin(), reachable.end(), path.faces.back());
+  if (end == reachable.end()) return {.line = line};
+  const std::vector<Vec3> through =
+      shortest_over(surface_of(strip_of(mesh, path.faces)), path.faces.size() - 1, path);
   const std::vector<Vec3> shortest =
-      shortest_over(mesh, reachable_faces(mesh, edges, path, line), path);
+      shortest_over(surface_of(part_of(mesh, reachable)),
+                    static_cast<std::size_t>(end - reachable.begin()), path);
   if (through.empty() || shortest.empty()) return {.line = line};
   GeodesicMatch match{.line = line,
                       .length = length_of(through),
