@@ -7,9 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 
 #include "compare/mesh_values.h"
+#include "compare/random.h"
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 
@@ -53,16 +55,6 @@ double distance_to_face(const Vec3& point, const TriangleMesh& mesh, std::uint32
                                                        mesh.positions[c]));
 }
 
-/// The generator splitmix64 [Steele, Lea, Flood 2014]: a hash of (seed, i), the same everywhere.
-double uniform_in_unit_interval(std::uint64_t seed, std::uint64_t i) {
-  std::uint64_t z = seed + (i + 1) * 0x9e3779b97f4a7c15U;
-  z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-  z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-  z ^= z >> 31U;
-  constexpr double kUnit = 0x1.0p-53;  // of the 53 bits that a double holds
-  return static_cast<double>(z >> 11U) * kUnit;
-}
-
 /// (u, v) in the unit square to an even spread over the triangle [Turk 1990].
 Vec3 point_in_triangle(const TriangleMesh& mesh, const Triangle& triangle, double u, double v) {
   const double root = std::sqrt(u);
@@ -70,19 +62,38 @@ Vec3 point_in_triangle(const TriangleMesh& mesh, const Triangle& triangle, doubl
          root * (1.0 - v) * mesh.positions[triangle[1]] + root * v * mesh.positions[triangle[2]];
 }
 
+void check_points(const std::string& function, std::span<const Vec3> points) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (is_finite(points[i])) continue;
+    throw InvalidArgument(function + ": every point must be finite, not so point " +
+                          std::to_string(i));
+  }
+}
+
+Faces faces_to_search(const char* function, const TriangleMesh& mesh) {
+  check_mesh_values(function, mesh);
+  Faces faces = faces_with_area(mesh);
+  if (faces.triangles.empty()) {
+    throw TopologyError(std::string(function) + ": the mesh must have a face with an area");
+  }
+  return faces;
+}
+
+/// From a point to where a line through it meets a triangle, along the line.
+double distance_along(const Kernel::Point_3& point, const Kernel::Line_3& line,
+                      const Kernel::Triangle_3& triangle) {
+  const auto meeting = CGAL::intersection(line, triangle.supporting_plane());
+  const auto* place = meeting ? boost::get<Kernel::Point_3>(&*meeting) : nullptr;
+  // A line within the plane meets the triangle no nearer than the triangle is.
+  return std::sqrt(place ? CGAL::squared_distance(point, *place)
+                         : CGAL::squared_distance(point, triangle));
+}
+
 }  // namespace
 
 std::vector<NearestFace> nearest_faces(std::span<const Vec3> points, const TriangleMesh& mesh) {
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (is_finite(points[i])) continue;
-    throw InvalidArgument("nearest_faces: every point must be finite, not so point " +
-                          std::to_string(i));
-  }
-  check_mesh_values("nearest_faces", mesh);
-  const Faces faces = faces_with_area(mesh);
-  if (faces.triangles.empty()) {
-    throw TopologyError("nearest_faces: the mesh must have a face with an area");
-  }
+  check_points("nearest_faces", points);
+  const Faces faces = faces_to_search("nearest_faces", mesh);
   Tree tree(faces.triangles.begin(), faces.triangles.end());
   tree.build();
   tree.accelerate_distance_queries();  // from here on the tree is only read
@@ -95,6 +106,38 @@ std::vector<NearestFace> nearest_faces(std::span<const Vec3> points, const Trian
       const std::uint32_t face = faces.index[position];
       // CGAL's nearest point is constructed with rounding; the distance is computed afresh.
       nearest[i] = {.face = face, .distance = distance_to_face(points[i], mesh, face)};
+    }
+  });
+  return nearest;
+}
+
+std::vector<std::optional<NearestFace>> nearest_faces_along(std::span<const Vec3> points,
+                                                            std::span<const Vec3> directions,
+                                                            const TriangleMesh& mesh) {
+  check_points("nearest_faces_along", points);
+  if (directions.size() != points.size()) {
+    throw InvalidArgument("nearest_faces_along: one direction a point must be given, got " +
+                          std::to_string(directions.size()) + " for " +
+                          std::to_string(points.size()) + " points");
+  }
+  const Faces faces = faces_to_search("nearest_faces_along", mesh);
+  Tree tree(faces.triangles.begin(), faces.triangles.end());
+  tree.build();
+
+  std::vector<std::optional<NearestFace>> nearest(points.size());
+  parallel_for(points.size(), kQueriesPerBlock, [&](std::size_t begin, std::size_t end) {
+    std::vector<Triangles::const_iterator> met;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Kernel::Point_3 point = to_cgal(points[i]);
+      const Kernel::Line_3 line(point, to_cgal(points[i] + directions[i]));
+      met.clear();
+      tree.all_intersected_primitives(line, std::back_inserter(met));
+      for (const auto triangle : met) {
+        const double distance = distance_along(point, line, *triangle);
+        if (nearest[i] && nearest[i]->distance <= distance) continue;
+        const auto position = static_cast<std::size_t>(triangle - faces.triangles.begin());
+        nearest[i] = {.face = faces.index[position], .distance = distance};
+      }
     }
   });
   return nearest;
@@ -120,12 +163,19 @@ DistanceSummary summarize(std::span<const double> distances) {
     sum_of_squares += distance * distance;
   }
   const auto count = static_cast<double>(sorted.size());
-  const std::size_t rank_95 = (sorted.size() * 95 + 99) / 100;  // rounded up, from 1
   return {.count = sorted.size(),
           .mean = sum / count,
           .rms = std::sqrt(sum_of_squares / count),
-          .p95 = sorted[rank_95 - 1],
+          .p95 = percentile(sorted, 95),
           .max = sorted.back()};
+}
+
+double percentile(std::vector<double> values, std::size_t percent) {
+  if (values.empty()) return 0.0;
+  const std::size_t rank = (values.size() * percent + 99) / 100;  // rounded up, from 1
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(rank - 1);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
 }
 
 double share_within(std::span<const double> distances, double limit) {

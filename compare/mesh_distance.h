@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,13 @@ struct NearestFace {
 [[nodiscard]] std::vector<NearestFace> nearest_faces(std::span<const Vec3> points,
                                                      const TriangleMesh& mesh);
 
+/// The face of `mesh` that the straight line through each point meets nearest to it, before or
+/// behind, and the distance along the line; none where it meets no face.
+/// @param directions of the lines, one a point, not zero
+/// @throws as nearest_faces(), and InvalidArgument if there is not one direction a point
+[[nodiscard]] std::vector<std::optional<NearestFace>> nearest_faces_along(
+    std::span<const Vec3> points, std::span<const Vec3> directions, const TriangleMesh& mesh);
+
 /// The distances alone.
 [[nodiscard]] std::vector<double> distances_to_mesh(std::span<const Vec3> points,
                                                     const TriangleMesh& mesh);
@@ -38,6 +46,10 @@ struct DistanceSummary {
 };
 
 [[nodiscard]] DistanceSummary summarize(std::span<const double> distances);
+
+/// The smallest of the values that so many percent of them do not exceed; 0 for an empty set.
+/// @pre 0 < percent <= 100
+[[nodiscard]] double percentile(std::vector<double> values, std::size_t percent);
 
 /// Share of the distances that are at most `limit`; 1 for an empty set.
 [[nodiscard]] double share_within(std::span<const double> distances, double limit);

@@ -16,6 +16,7 @@
 #include "apps/rangezip-compare/mesh_command.h"
 #include "apps/rangezip-compare/sample_command.h"
 #include "apps/rangezip-compare/stages_command.h"
+#include "apps/rangezip-compare/stitch_command.h"
 #include "apps/rangezip/backend.h"
 #include "apps/rangezip/exit_code.h"
 #include "apps/rangezip/interrupt.h"
@@ -44,8 +45,9 @@ enum ExitCode {
 constexpr const char* kFooter =
     "Without the name of a command, 'draw' is meant.\n\n"
     "Exit codes:\n"
-    "  0  nothing differs that must not; the mesh is clean\n"
-    "  1  images, stages or drawings differ that must not; the mesh is not clean\n"
+    "  0  nothing differs that must not; the mesh is clean; the stitches are good\n"
+    "  1  images, stages or drawings differ that must not; the mesh is not clean; a stitch is not\n"
+    "     good\n"
     "  2  an input is missing or not what it claims to be\n"
     "  3  an output cannot be written\n"
     "  4  a backend is unknown or failed\n"
@@ -183,6 +185,19 @@ CLI::App* add_stages(CLI::App& app, StagesCommand& command) {
   return stages;
 }
 
+CLI::App* add_stitch(CLI::App& app, StitchCommand& command) {
+  CLI::App* stitch = app.add_subcommand(
+      "stitch", "Play a session and judge every stitch: location, geodesics, manifold, crossings");
+  stitch->add_option("SESSION", command.session, "From --session of `rangezip mesh` or `scan`")
+      ->required();
+  stitch->add_option("--backend", command.backend, "Draws the scans: " + app::known_backends())
+      ->capture_default_str();
+  stitch->add_option("--seed", command.seed, "Of the segments chosen where there are many")
+      ->capture_default_str();
+  stitch->add_option("--json", command.json, "Write the verdicts to this file");
+  return stitch;
+}
+
 /// "rangezip-compare mesh --help", of the command on the command line.
 std::string help_of(const CLI::App& app) {
   std::string line = app.get_name();
@@ -270,11 +285,13 @@ int parse_and_run(int argc, char** argv) {
   ImagesCommand images;
   SampleCommand sample;
   StagesCommand stages;
+  StitchCommand stitch;
   const CLI::App* judge_drawings = add_draw(app, draw);
   const CLI::App* judge_mesh = add_mesh(app, mesh);
   const CLI::App* compare_images = add_images(app, images);
   add_sample(app, sample);
   const CLI::App* judge_stages = add_stages(app, stages);
+  const CLI::App* judge_stitching = add_stitch(app, stitch);
 
   try {
     app.parse(arguments_of(app, argc, argv));
@@ -286,6 +303,7 @@ int parse_and_run(int argc, char** argv) {
     if (judge_mesh->parsed()) return run_mesh_command(mesh, out, progress);
     if (compare_images->parsed()) return run_images_command(images, out);
     if (judge_stages->parsed()) return run_stages_command(stages, out, progress);
+    if (judge_stitching->parsed()) return run_stitch_command(stitch, out, progress);
     run_sample_command(sample, progress);
     return true;
   });

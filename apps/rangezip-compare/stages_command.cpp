@@ -7,14 +7,12 @@
 #include <ostream>
 
 #include "apps/rangezip-compare/json_file.h"
+#include "apps/rangezip-compare/session_input.h"
 #include "apps/rangezip-compare/stages_report.h"
 #include "apps/rangezip/backend.h"
 #include "apps/rangezip/exit_code.h"
-#include "apps/rangezip/session_start.h"
 #include "compare/stage_judge.h"
 #include "core/base/error.h"
-#include "core/io/input_file.h"
-#include "core/io/session_file.h"
 
 namespace rangezip::compare {
 
@@ -22,40 +20,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// "scan": the command's name in the session file.
-std::string name_of(const Command& command) {
-  struct Name {
-    std::string operator()(const AddScan&) const { return "scan"; }
-    std::string operator()(const EraseRegion&) const { return "erase"; }
-    std::string operator()(const SmoothMesh&) const { return "smooth"; }
-    std::string operator()(const FillMeshHoles&) const { return "fill"; }
-    std::string operator()(const FinishMesh&) const { return "finish"; }
-    std::string operator()(const UndoSteps&) const { return "undo"; }
-  };
-  return std::visit(Name{}, command);
-}
-
-std::vector<std::string> names_of(const std::vector<Command>& commands) {
-  std::vector<std::string> names;
-  std::transform(commands.begin(), commands.end(), std::back_inserter(names), name_of);
-  return names;
-}
-
-app::SessionStart read_start(const StagesCommand& command, const SessionFile& file,
-                             const Progress& progress) {
-  const auto read = [&](const auto& paths) { return read_scene(paths, progress).scene; };
+std::vector<CommandVerdict> judge(const StagesCommand& command, const JudgeableSession& session,
+                                  Rasterizer& reference, Rasterizer& candidate,
+                                  const Progress& progress) {
   try {
-    return app::read_session_start(command.session, file, read);
-  } catch (const TopologyError& error) {
-    throw IoError(command.session.string() + ": /initial_mesh: " + error.what());
-  }
-}
-
-std::vector<CommandVerdict> judge(const StagesCommand& command, const SessionFile& file,
-                                  const app::SessionStart& start, Rasterizer& reference,
-                                  Rasterizer& candidate, const Progress& progress) {
-  try {
-    return judge_session(start.scene, start.mesh, file.commands, reference, candidate, progress);
+    return judge_session(session.start.scene, session.start.mesh, session.file.commands, reference,
+                         candidate, progress);
   } catch (const InvalidArgument& error) {
     throw IoError(command.session.string() + ": " + error.what());
   }
@@ -83,9 +53,8 @@ bool run_stages_command(const StagesCommand& command, std::ostream& out, const P
   std::vector<std::unique_ptr<Rasterizer>> rasterizers;
   for (const std::string& name : command.backends)
     rasterizers.push_back(app::make_rasterizer(name));
-  const SessionFile file = read_session(command.session);
-  const app::SessionStart start = read_start(command, file, progress);
-  const std::vector<std::string> names = names_of(file.commands);
+  const JudgeableSession session = read_judgeable_session(command.session, progress);
+  const std::vector<std::string> names = names_of(session.file.commands);
 
   Rasterizer& reference = *rasterizers.front();
   std::vector<JudgedSession> candidates;
@@ -93,7 +62,7 @@ bool run_stages_command(const StagesCommand& command, std::ostream& out, const P
     candidates.push_back(
         {.name = command.backends[i],
          .renderer = rasterizers[i]->info().name,
-         .verdicts = judge(command, file, start, reference, *rasterizers[i], progress)});
+         .verdicts = judge(command, session, reference, *rasterizers[i], progress)});
     print_session(out, names, command.backends.front(), candidates.back());
   }
   if (command.json) write_json(*command.json, report_of(command, names, reference, candidates));

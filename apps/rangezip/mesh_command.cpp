@@ -13,6 +13,7 @@
 #include "apps/rangezip/exit_code.h"
 #include "apps/rangezip/inputs.h"
 #include "apps/rangezip/outputs.h"
+#include "apps/rangezip/referee.h"
 #include "apps/rangezip/report_json.h"
 #include "apps/rangezip/stage_clock.h"
 #include "apps/rangezip/values.h"
@@ -31,6 +32,7 @@ struct MeshOptions {
   std::filesystem::path output;
   std::optional<std::filesystem::path> report;
   std::optional<std::filesystem::path> session;
+  bool verify = false;
   ReconstructOptions reconstruct;
   MeshFileOptions file;
   CommonOptions common;
@@ -55,10 +57,8 @@ void check_outputs(const MeshOptions& options) {
   Outputs outputs;
   outputs.add("-o", options.output, {"ply", "obj", "off", "stl"});
   if (options.report) outputs.add("--report", *options.report, {"json"});
-  if (options.session) {
-    outputs.add("--session", *options.session, {"json"});
-    outputs.refuse_overwriting(options.inputs);
-  }
+  if (options.session) outputs.add("--session", *options.session, {"json"});
+  if (options.session || options.verify) outputs.refuse_overwriting(options.inputs);
 }
 
 std::string places_text(std::span<const Place> places, double area) {
@@ -104,6 +104,7 @@ void verify(const MeshOptions& options, const ReconstructReport& report) {
 void mesh(const MeshOptions& options, const Context& context) {
   const auto rasterizer = make_rasterizer(options.common.backend);
   check_outputs(options);
+  const auto referee = options.verify ? std::optional(find_referee()) : std::nullopt;
   Console console(options.common.quiet, context.stop);
   const StageClock total;
 
@@ -123,15 +124,19 @@ void mesh(const MeshOptions& options, const Context& context) {
   const StageClock write_clock;
   write_output([&] { write_mesh(options.output, result.mesh, options.file); });
   run.stages.push_back(write_clock.stage("write"));
-  if (options.session) {
-    const SessionFile session =
-        record_session(options.inputs, input, std::nullopt, std::move(result.commands));
-    write_output([&] { write_session(*options.session, session); });
+  std::optional<SessionFile> session;
+  if (options.session || options.verify) {
+    session = record_session(options.inputs, input, std::nullopt, std::move(result.commands));
   }
+  if (options.session) write_output([&] { write_session(*options.session, *session); });
   run.inputs = std::move(input.reports);
   run.reconstruction = std::move(result.report);
   if (options.report) write_output([&] { write_report(*options.report, run); });
   print_summary(console, options, input.scene, run.reconstruction, total.stage("total"));
+  if (referee) {
+    let_referee_judge(*referee, *session, options.output, options.common.backend,
+                      options.common.quiet, context.stop);
+  }
   verify(options, run.reconstruction);
 }
 
@@ -175,11 +180,13 @@ void add_mesh_command(CLI::App& app, Action& action) {
       ->type_name("R.json");
   command.add_option("--session", options->session, "Record the run, for 'rangezip play'")
       ->type_name("S.json");
+  command.add_flag("--verify", options->verify,
+                   "Let rangezip-compare, if installed, judge every stitch with CGAL");
   add_common_options(command, options->common);
   command.footer(
       "The same input gives the same bytes on every machine and for any number of threads.\n"
       "The mesh is checked: exit code 5 says that it is written but not manifold, or crosses "
-      "itself.");
+      "itself; with --verify also that a stitch is not good.");
   command.callback([options, &action] {
     options->reconstruct.threads = options->common.threads;
     action = [options](const Context& context) {

@@ -101,7 +101,9 @@ void describe(Fields& f, CorrespondenceOptions& options) {
            std::array{Choice<CorrespondenceMethod>{"depth_band", CorrespondenceMethod::depth_band},
                       Choice<CorrespondenceMethod>{"id_buffer", CorrespondenceMethod::id_buffer}},
            "faces within a band of depth, or the paper's: the nearest face and a local search");
-  f.number("band", band, kPositive, "half width, in pixel sides times the stretch of the slope");
+  f.number("band", band, kPositive,
+           "depth_band: half width, in pixel sides times the stretch of the slope; id_buffer: "
+           "largest distance, in pixel sides");
   f.number("back_band", back_band, kNotNegative, "the same for faces seen from behind; 0: none");
 }
 

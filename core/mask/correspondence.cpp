@@ -39,13 +39,47 @@ Grid<PrimitiveId> faces_in_band(Rasterizer& rasterizer, const RangeImage& image,
   return std::move(drawn.id);
 }
 
+/// The nearest of the faces reached by walks from what is seen in the pixel and the eight around
+/// it: one walk alone ends in a local minimum where the mesh is rough.
+NearestFace search_nearest_face(const Grid<PrimitiveId>& seen, Pixel p, const TriangleMesh& mesh,
+                                const EdgeMap& edges, const Vec3& position) {
+  NearestFace nearest = walk_to_nearest_face(mesh, edges, seen[p], position);
+  for (int k = 0; k < 9; ++k) {
+    const Pixel q{p.x + k % 3 - 1, p.y + k / 3 - 1};
+    if (!seen.extent().contains(q)) continue;
+    const PrimitiveId start = seen[q];
+    if (start == kNoPrimitive || start == seen[p] || start == nearest.face) continue;
+    const NearestFace other = walk_to_nearest_face(mesh, edges, start, position);
+    if (other.squared_distance < nearest.squared_distance) nearest = other;
+  }
+  return nearest;
+}
+
+/// The local search of [Kobbelt, Botsch 2000, 4.3]: from what is seen to the face nearest to each
+/// sample. Farther than `reach` pixel sides none corresponds.
+Grid<PrimitiveId> search_nearest_faces(const Grid<PrimitiveId>& seen, const RangeImage& image,
+                                       const TriangleMesh& mesh, double reach) {
+  const EdgeMap edges = edges_of(mesh);
+  Grid<PrimitiveId> faces(image.extent(), kNoPrimitive);
+  for_each_row(image.extent().height, [&](int y) {
+    for (Pixel p{0, y}; p.x < image.extent().width; ++p.x) {
+      if (!image.has_sample(p) || seen[p] == kNoPrimitive) continue;
+      const NearestFace found = search_nearest_face(seen, p, mesh, edges, image.position(p));
+      const double limit = reach * image.pixel_size(p);
+      if (found.squared_distance <= limit * limit) faces[p] = found.face;
+    }
+  });
+  return faces;
+}
+
 Correspondence by_depth_band(Rasterizer& rasterizer, const RangeImage& image,
                              const SlopeImage& slopes, const TriangleMesh& mesh,
-                             const CorrespondenceOptions& options) {
+                             const CorrespondenceOptions& options, bool any_face) {
   const DrawableMesh drawable(mesh);
   Correspondence result;
   result.face = faces_in_band(rasterizer, image, drawable.item(Facing::front),
                               band_around(image, slopes, options.band));
+  if (!any_face) result.face = search_nearest_faces(result.face, image, mesh, kNoSample);
   result.from_behind = Mask(image.extent(), 0);
   if (options.back_band > 0.0) {
     const Grid<PrimitiveId> back = faces_in_band(rasterizer, image, drawable.item(Facing::back),
@@ -57,21 +91,12 @@ Correspondence by_depth_band(Rasterizer& rasterizer, const RangeImage& image,
 }
 
 Correspondence by_id_buffer(Rasterizer& rasterizer, const RangeImage& image,
-                            const TriangleMesh& mesh) {
+                            const TriangleMesh& mesh, const CorrespondenceOptions& options) {
   const DrawableMesh drawable(mesh);
   const DrawItem item = drawable.item();
   Correspondence result{.face = rasterizer.render(image.view(), {&item, 1}).id,
                         .from_behind = Mask(image.extent(), 0)};
-  const EdgeMap edges = edges_of(mesh);
-  for_each_row(image.extent().height, [&](int y) {
-    for (Pixel p{0, y}; p.x < image.extent().width; ++p.x) {
-      PrimitiveId& face = result.face[p];
-      if (!image.has_sample(p)) face = kNoPrimitive;
-      if (face != kNoPrimitive) {
-        face = walk_to_nearest_face(mesh, edges, face, image.position(p)).face;
-      }
-    }
-  });
+  result.face = search_nearest_faces(result.face, image, mesh, options.band);
   return result;
 }
 
@@ -79,7 +104,7 @@ Correspondence by_id_buffer(Rasterizer& rasterizer, const RangeImage& image,
 
 Correspondence find_correspondence(Rasterizer& rasterizer, const RangeImage& image,
                                    const SlopeImage& slopes, const TriangleMesh& mesh,
-                                   const CorrespondenceOptions& options) {
+                                   const CorrespondenceOptions& options, bool any_face) {
   if (slopes.extent() != image.extent()) {
     throw InvalidArgument("find_correspondence: image and slopes must have the same extent");
   }
@@ -96,9 +121,9 @@ Correspondence find_correspondence(Rasterizer& rasterizer, const RangeImage& ima
             .from_behind = Mask(image.extent(), 0)};
   }
   if (options.method == CorrespondenceMethod::id_buffer) {
-    return by_id_buffer(rasterizer, image, mesh);
+    return by_id_buffer(rasterizer, image, mesh, options);
   }
-  return by_depth_band(rasterizer, image, slopes, mesh, options);
+  return by_depth_band(rasterizer, image, slopes, mesh, options, any_face);
 }
 
 }  // namespace rangezip

@@ -9,12 +9,14 @@ namespace rangezip {
 
 enum class CorrespondenceMethod {
   depth_band,  ///< only fragments of the mesh within a band around the samples are drawn
-  id_buffer,   ///< the paper's: the nearest face in the ID buffer, then a local search
+  id_buffer,   ///< the paper's: what is seen of the mesh, if it is as close as that
 };
 
 struct CorrespondenceOptions {
   CorrespondenceMethod method = CorrespondenceMethod::depth_band;
-  double band = 1.5;       ///< half width of the band in pixel sides times stretch_of(slope)
+  double band = 1.5;       ///< depth_band: half width of the band in pixel sides times
+                           ///< stretch_of(slope); id_buffer: largest distance of the face, pixel
+                           ///< sides
   double back_band = 0.6;  ///< the same for faces seen from behind; 0: not looked for
 };
 
@@ -26,15 +28,19 @@ struct Correspondence {
 
 /// The face of `mesh` that corresponds to each sample [Kobbelt, Botsch 2000, 4.3].
 ///
+/// Both look at what is drawn in the pixel and the eight around it, and from each face there a walk
+/// over neighbours goes downhill in distance to the sample: the nearest face so found corresponds.
 /// depth_band: the mesh is drawn under the image's view and every fragment outside the band around
 /// the range image is dropped, so the face is on the right sheet by construction. Front faces
 /// (Facing::front) and back faces are drawn apart.
-/// id_buffer: the paper's way; the visible face is a start from which a walk over edge neighbours
-/// goes downhill in distance to the sample; accepted at any distance.
+/// id_buffer: the paper's way; the mesh is drawn as it is. A sample may then see a face of another
+/// sheet far behind it; that is no correspondence.
 /// Cost: two passes of the rasterizer over the mesh or one, O(faces + pixels).
+/// @param any_face only whether there is a face matters, not which: depth_band then does not search
 /// @throws InvalidArgument if the extents differ or a band is negative or not finite.
 [[nodiscard]] Correspondence find_correspondence(Rasterizer& rasterizer, const RangeImage& image,
                                                  const SlopeImage& slopes, const TriangleMesh& mesh,
-                                                 const CorrespondenceOptions& options = {});
+                                                 const CorrespondenceOptions& options = {},
+                                                 bool any_face = false);
 
 }  // namespace rangezip

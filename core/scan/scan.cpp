@@ -133,8 +133,8 @@ Scan scan(Rasterizer& rasterizer, const Scene& scene, const TriangleMesh& mesh,
   fill_pixel_holes(result, request);
   smooth_samples(result, request);
 
-  result.correspondence =
-      find_correspondence(rasterizer, result.image, result.slopes, mesh, request.correspondence);
+  result.correspondence = find_correspondence(rasterizer, result.image, result.slopes, mesh,
+                                              request.correspondence, request.unmatched_only);
   progress.at("scan", 0.8);
   result.active = choose_active_samples(result, mesh, request, result.report);
   result.patch = triangulate(result.image, result.active, request.triangulate);

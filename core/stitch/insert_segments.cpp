@@ -158,7 +158,9 @@ InsertedSegments insert_boundary_segments(SheetMesh& sheet,
   InsertedSegments result;
   for (const auto& [start, end] : segments) {
     SegmentInserter inserter(sheet, start, end);
-    ++(inserter.insert() ? result.inserted : result.skipped);
+    const bool is_edge = inserter.insert();
+    result.is_edge.push_back(is_edge ? 1 : 0);
+    ++(is_edge ? result.inserted : result.skipped);
     result.flips += inserter.flips();
   }
   return result;

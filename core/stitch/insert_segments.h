@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -10,8 +11,9 @@
 namespace rangezip {
 
 struct InsertedSegments {
-  std::size_t inserted = 0;  ///< edges of the sheet now, found or made
-  std::size_t skipped = 0;   ///< that leave the sheet
+  std::vector<std::uint8_t> is_edge;  ///< one per segment: 1 if it is an edge of the sheet now
+  std::size_t inserted = 0;           ///< of those, found or made
+  std::size_t skipped = 0;            ///< that leave the sheet
   std::size_t flips = 0;
 };
 

@@ -62,6 +62,36 @@ double depth_in_face(const SheetMesh& sheet, FaceHandle face, const GridPoint& p
          (of_a + of_b + of_c);
 }
 
+std::uint32_t& origin_of(SheetMesh& sheet, HalfedgeHandle e) {
+  return sheet.face_in_whole[static_cast<std::size_t>(sheet.mesh.face_handle(e).idx())];
+}
+
+/// The two faces made by the split come from those that they were cut off, on the same side.
+void split_edge(SheetMesh& sheet, HalfedgeHandle edge, VertexHandle v) {
+  const std::array<HalfedgeHandle, 2> sides{edge, sheet.mesh.opposite_halfedge_handle(edge)};
+  std::array<VertexHandle, 2> apexes;
+  std::array<std::uint32_t, 2> origins{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (sheet.mesh.is_boundary(sides[k])) continue;
+    apexes[k] = sheet.mesh.to_vertex_handle(sheet.mesh.next_halfedge_handle(sides[k]));
+    origins[k] = origin_of(sheet, sides[k]);
+  }
+  sheet.mesh.split(sheet.mesh.edge_handle(edge), v);
+  sheet.face_in_whole.resize(sheet.mesh.n_faces());
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (!apexes[k].is_valid()) continue;
+    const HalfedgeHandle spoke = sheet.mesh.find_halfedge(v, apexes[k]);
+    origin_of(sheet, spoke) = origins[k];
+    origin_of(sheet, sheet.mesh.opposite_halfedge_handle(spoke)) = origins[k];
+  }
+}
+
+void split_face(SheetMesh& sheet, FaceHandle face, VertexHandle v) {
+  const std::uint32_t origin = sheet.face_in_whole[static_cast<std::size_t>(face.idx())];
+  sheet.mesh.split(face, v);
+  sheet.face_in_whole.resize(sheet.mesh.n_faces(), origin);
+}
+
 VertexHandle insert(SheetMesh& sheet, const Place& place, const BoundaryVertex& vertex) {
   if (place.vertex.is_valid()) {
     const auto v = static_cast<std::size_t>(place.vertex.idx());
@@ -74,9 +104,9 @@ VertexHandle insert(SheetMesh& sheet, const Place& place, const BoundaryVertex& 
   sheet.depths.push_back(vertex.depth);
   sheet.vertex_in_whole.push_back(vertex.index);
   if (place.edge.is_valid()) {
-    sheet.mesh.split(sheet.mesh.edge_handle(place.edge), v);
+    split_edge(sheet, place.edge, v);
   } else {
-    sheet.mesh.split(place.face, v);
+    split_face(sheet, place.face, v);
   }
   return v;
 }
@@ -89,6 +119,7 @@ InsertedVertices insert_boundary_vertices(SheetMesh& sheet,
                                           const PatchSheet& patch, double band) {
   InsertedVertices result;
   result.handles.resize(vertices.size());
+  result.faces.resize(vertices.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const BoundaryVertex& vertex = vertices[i];
     const GridPoint point = grid_point(vertex.pixel);
@@ -97,6 +128,7 @@ InsertedVertices insert_boundary_vertices(SheetMesh& sheet,
     const double limit = kDepthShare * band * patch[vertex.pixel].stretch *
                          patch.image().view().pixel_size(vertex.depth);
     if (std::abs(depth_in_face(sheet, place.face, point) - vertex.depth) > limit) continue;
+    result.faces[i] = sheet.face_in_whole[static_cast<std::size_t>(place.face.idx())];
     result.handles[i] = insert(sheet, place, vertex);
     ++result.inserted;
   }

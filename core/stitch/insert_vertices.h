@@ -20,6 +20,8 @@ struct BoundaryVertex {
 struct InsertedVertices {
   /// For each vertex its handle in the sheet; invalid where the sheet has no place for it.
   std::vector<SheetMesh::VertexHandle> handles;
+  /// The face of the whole mesh that it was put into, where its handle is valid.
+  std::vector<std::uint32_t> faces;
   std::size_t inserted = 0;  ///< valid handles
 };
 

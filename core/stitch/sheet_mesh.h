@@ -16,7 +16,8 @@ struct SheetMesh {
   std::vector<GridPoint> points;               ///< of its vertices; empty before set_image()
   std::vector<double> depths;                  ///< of its vertices; empty before set_image()
   std::vector<std::uint32_t> vertex_in_whole;  ///< index of each vertex in the whole mesh
-  std::vector<std::uint32_t> face_in_whole;    ///< of the faces as cut out, in their order
+  std::vector<std::uint32_t> face_in_whole;    ///< where each face was cut out: those of cut_out()
+                                               ///< ascending, then those made by splitting one
 
   using VertexHandle = HalfedgeMesh::VertexHandle;
   using HalfedgeHandle = HalfedgeMesh::HalfedgeHandle;

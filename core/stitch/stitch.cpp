@@ -67,6 +67,7 @@ class Attempt {
   [[nodiscard]] const TriangleMesh& mesh() const { return joint_.mesh; }
   [[nodiscard]] const FaceChanges& changes() const { return changes_; }
   [[nodiscard]] const StitchReport& report() const { return report_; }
+  [[nodiscard]] const StitchRecord& record() const { return record_; }
 
  private:
   void clean();
@@ -80,6 +81,7 @@ class Attempt {
   Joint joint_;
   FaceChanges changes_;
   StitchReport report_;
+  StitchRecord record_;  ///< by the part's faces
 };
 
 void Attempt::clean() {
@@ -93,7 +95,7 @@ void Attempt::clean() {
 
 void Attempt::join() {
   const bool is_zipper = options_.method == StitchMethod::zipper;
-  joint_ = is_zipper ? zipper(part_.mesh, scan_, options_, report_)
+  joint_ = is_zipper ? zipper(part_.mesh, scan_, options_, report_, record_)
                      : clear_and_fill(part_.mesh, scan_, options_, report_);
   clean();
   if (is_zipper && options_.collapse_ratio > 0.0) {
@@ -181,6 +183,25 @@ std::vector<Pixel> Attempt::lost_pixels() {
   return lost;
 }
 
+/// The record by the faces of the whole mesh and the vertices of the whole patch.
+/// @param pixels of the vertices that are left of the patch, in the order of `all_pixels`
+StitchRecord record_of_whole(StitchRecord record, const MeshPart& part,
+                             std::span<const Pixel> pixels, std::span<const Pixel> all_pixels) {
+  std::vector<std::uint32_t> vertex_in_whole;
+  for (std::uint32_t v = 0; v < all_pixels.size() && vertex_in_whole.size() < pixels.size(); ++v) {
+    if (all_pixels[v] == pixels[vertex_in_whole.size()]) vertex_in_whole.push_back(v);
+  }
+  for (StitchRecord::Vertex& vertex : record.vertices) {
+    vertex.patch_vertex = vertex_in_whole[vertex.patch_vertex];
+    vertex.old_face = part.face_in_whole[vertex.old_face];
+  }
+  for (auto& segment : record.segments) {
+    for (std::uint32_t& v : segment)
+      v = vertex_in_whole[v];
+  }
+  return record;
+}
+
 /// Where a hole is in the way the patch is withdrawn from it by this many pixels at first, and by
 /// so many times more each time; after the last one altogether.
 constexpr int kFirstWithdrawal = 2;
@@ -194,7 +215,7 @@ constexpr int kPartMargin = 2;
 
 StitchResult stitch(TriangleMesh mesh, const Scan& scan, const StitchOptions& options) {
   check_indices(mesh);
-  if (scan.patch.mesh.empty()) return {std::move(mesh), {}};
+  if (scan.patch.mesh.empty()) return {.mesh = std::move(mesh)};
   const View& view = scan.image.view();
   const MeshPart part =
       cut_out_part(mesh, view, scan.patch.pixels, sheet_radius(options) + kPartMargin);
@@ -211,7 +232,8 @@ StitchResult stitch(TriangleMesh mesh, const Scan& scan, const StitchOptions& op
     report.withdrawn_faces = scan.patch.mesh.triangles.size() - patch.mesh.triangles.size();
     if (lost.empty()) {
       put_back(mesh, part, attempt.mesh(), attempt.changes());
-      return {std::move(mesh), report};
+      return {std::move(mesh), report,
+              record_of_whole(attempt.record(), part, patch.pixels, scan.patch.pixels)};
     }
     if (withdrawals == kWithdrawals) break;
     patch = withdraw_near(patch, lost, radius);
@@ -219,7 +241,7 @@ StitchResult stitch(TriangleMesh mesh, const Scan& scan, const StitchOptions& op
   }
   StitchReport report;
   report.withdrawn_faces = scan.patch.mesh.triangles.size();
-  return {std::move(mesh), report};
+  return {std::move(mesh), report, {}};
 }
 
 }  // namespace rangezip

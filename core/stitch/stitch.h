@@ -6,6 +6,7 @@
 #include "core/mesh/triangle_mesh.h"
 #include "core/patch/patch.h"
 #include "core/scan/scan.h"
+#include "core/stitch/stitch_record.h"
 
 namespace rangezip {
 
@@ -51,6 +52,7 @@ struct StitchReport {
 struct StitchResult {
   TriangleMesh mesh;
   StitchReport report;
+  StitchRecord record;
 };
 
 /// Joins the patch of `scan` to `mesh` and lets it replace what it covers. All seam geometry

@@ -67,11 +67,13 @@ PrimitiveId rank_of(PrimitiveId number, std::span<const std::uint32_t> numbers) 
 
 class Zipper {
  public:
-  Zipper(Joint& joint, const PatchScan& scan, const StitchOptions& options, StitchReport& report)
+  Zipper(Joint& joint, const PatchScan& scan, const StitchOptions& options, StitchReport& report,
+         StitchRecord& record)
       : joint_(joint),
         scan_(scan),
         options_(options),
         report_(report),
+        record_(record),
         patch_sheet_(scan, sheet_radius(options)),
         cut_(faces_near_patch(joint, patch_sheet_)),
         sheet_(cut_out(joint.mesh, cut_)),
@@ -96,6 +98,7 @@ class Zipper {
   const PatchScan& scan_;
   const StitchOptions& options_;
   StitchReport& report_;
+  StitchRecord& record_;
   PatchSheet patch_sheet_;
   std::vector<std::uint8_t> cut_;  ///< per old face: in the sheet
   SheetMesh sheet_;
@@ -165,6 +168,7 @@ void Zipper::insert_vertices() {
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     handles_[vertices[i]] = inserted.handles[i];
     if (!inserted.handles[i].is_valid()) continue;
+    record_.vertices.push_back({.patch_vertex = vertices[i], .old_face = inserted.faces[i]});
     const auto local = static_cast<std::size_t>(inserted.handles[i].idx());
     const std::uint32_t index = sheet_.vertex_in_whole[local];
     if (index < joint_.first_new) merge(vertices[i], index);
@@ -174,13 +178,17 @@ void Zipper::insert_vertices() {
 }
 
 void Zipper::insert_segments() {
+  std::vector<std::array<std::uint32_t, 2>> edges;
   std::vector<std::array<SheetMesh::VertexHandle, 2>> segments;
   for (const auto& [from, to] : boundary_) {
-    if (handles_[from].is_valid() && handles_[to].is_valid()) {
-      segments.push_back({handles_[from], handles_[to]});
-    }
+    if (!handles_[from].is_valid() || !handles_[to].is_valid()) continue;
+    edges.push_back({from, to});
+    segments.push_back({handles_[from], handles_[to]});
   }
   const InsertedSegments inserted = insert_boundary_segments(sheet_, segments);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (inserted.is_edge[i] != 0) record_.segments.push_back(edges[i]);
+  }
   report_.inserted_segments = inserted.inserted;
   report_.skipped_segments = boundary_.size() - inserted.inserted;
   report_.flipped_edges = inserted.flips;
@@ -236,9 +244,9 @@ void Zipper::join() {
 }  // namespace
 
 Joint zipper(TriangleMesh mesh, const PatchScan& scan, const StitchOptions& options,
-             StitchReport& report) {
+             StitchReport& report, StitchRecord& record) {
   Joint joint = begin_joint(std::move(mesh), scan, options.view);
-  Zipper zip(joint, scan, options, report);
+  Zipper zip(joint, scan, options, report, record);
   zip.insert_vertices();
   zip.insert_segments();
   zip.remove_covered();

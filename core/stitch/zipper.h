@@ -11,8 +11,9 @@ namespace rangezip {
 /// their place, sharing its boundary with the old surface. What of the boundary could not be
 /// inserted, where it leaves the old surface, is joined by a strip as in clear_and_fill().
 /// Vertices where fans touch are not yet opened, short edges not yet collapsed: see stitch().
+/// @param record receives what was inserted where
 /// @throws TopologyError as stitch() does
 [[nodiscard]] Joint zipper(TriangleMesh mesh, const PatchScan& scan, const StitchOptions& options,
-                           StitchReport& report);
+                           StitchReport& report, StitchRecord& record);
 
 }  // namespace rangezip

@@ -1,11 +1,13 @@
 #include "compare/location_judge.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 #include <vector>
 
 #include "core/base/error.h"
 #include "tests/compare/cubes.h"
+#include "tests/support/images.h"
 
 using namespace rangezip;
 using namespace rangezip::compare;
@@ -64,6 +66,42 @@ TEST_CASE("points without a face are counted apart and cost nothing") {
   CHECK(verdict.unlocated == 1);
   CHECK(verdict.agreement() == 1.0);
   CHECK(verdict.mean_loss == 0.0);
+}
+
+TEST_CASE("a face that is little farther than the nearest one is close, not right") {
+  const TriangleMesh mesh = test::strip(8);
+  const std::vector<Vec3> points{above_square(3)};
+  const std::vector<PrimitiveId> faces{11};
+  const double loss = std::sqrt(1.25 * 1.25 + 0.5 * 0.5) - 0.5;
+  const LocationVerdict strict = judge_location(mesh, points, faces, 0.99 * loss);
+  CHECK(strict.close == 0);
+  CHECK(strict.acceptance() == 0.0);
+  REQUIRE(strict.wrong.size() == 1);
+  CHECK(strict.wrong[0].given == 11);
+  CHECK(strict.wrong[0].nearest == 6);
+  const LocationVerdict lenient = judge_location(mesh, points, faces, 1.01 * loss);
+  CHECK(lenient.agreement() == 0.0);
+  CHECK(lenient.acceptance() == 1.0);
+}
+
+TEST_CASE("in sight the face in the line counts, not the nearest one") {
+  // Seen along z; the second point lies above an upright wall at x = 1.5 and beside it.
+  TriangleMesh mesh = test::strip(4);
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), {{1.5, 0.0, 0.1}, {1.5, 1.0, 0.1}, {1.6, 0.5, 1.0}});
+  mesh.triangles.push_back({first, first + 1, first + 2});
+  const View view = images::parallel_view({64, 64});
+  const std::vector<Vec3> points{{0.75, 0.25, 0.5}, {1.75, 0.25, 0.5}};
+  const LocationVerdict right =
+      judge_location_in_sight(mesh, view, points, std::vector<PrimitiveId>{0, 2});
+  CHECK(right.agreeing == 2);
+  CHECK(judge_location(mesh, points, std::vector<PrimitiveId>{0, 2}).agreeing == 1);
+  // The corner (2, 0, 0) of a face of the next square is 0.25 beside the line in x and in y.
+  const LocationVerdict wrong =
+      judge_location_in_sight(mesh, view, points, std::vector<PrimitiveId>{0, 4}, 0.2);
+  CHECK(wrong.agreeing == 1);
+  CHECK(wrong.close == 0);
+  CHECK(wrong.max_loss == Approx(std::sqrt(0.125)));
 }
 
 TEST_CASE("location of another length, faces out of range and points at infinity are refused") {

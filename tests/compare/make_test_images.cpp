@@ -1,6 +1,8 @@
-// Writes the images that program_test.cmake compares, into the current folder.
+// Writes the images and the body that the tests of the program read, into the current folder.
 #include "core/image/range_image.h"
 #include "core/io/image_file.h"
+#include "core/io/mesh_file.h"
+#include "tests/support/shapes.h"
 
 using namespace rangezip;
 
@@ -24,4 +26,5 @@ int main() {
   write_mask_png("other_mask.png", mask);
 
   write_rgb_png("picture.png", Grid<Rgb>({4, 3}));
+  write_mesh("torus.ply", shapes::to_mesh(shapes::torus()));
 }

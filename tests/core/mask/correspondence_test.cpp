@@ -143,6 +143,40 @@ TEST_CASE("the ID buffer finds the nearest face of a sphere at every sample", "[
   CHECK(samples > 170);
 }
 
+TEST_CASE("what the ID buffer sees far behind a sample does not correspond to it", "[mask]") {
+  // Where the old surface has a hole, its far side is seen through it.
+  const TriangleMesh mesh = two_sheets(20.0);
+  const auto matched = [&](double depth) {
+    const Correspondence found =
+        find(level_image(depth), mesh, {.method = CorrespondenceMethod::id_buffer});
+    return std::count_if(found.face.pixels().begin(), found.face.pixels().end(),
+                         [](PrimitiveId face) { return face != kNoPrimitive; });
+  };
+  CHECK(matched(18.6) == 18 * 18);  // within 1.5 pixel sides
+  CHECK(matched(18.4) == 0);
+  CHECK(matched(10.0) == 0);
+}
+
+TEST_CASE("the nearest face corresponds, also if it is seen in the next pixel only", "[mask]") {
+  // A sheet at depth 20 left of x = 0, another at 21 right of it; samples at 21. From the sample at
+  // x = -0.5 the second is half a pixel away, the one it is seen over a whole one.
+  TriangleMesh mesh;
+  mesh.positions = {{-9, -9, -20}, {0, -9, -20}, {0, 9, -20}, {-9, 9, -20},
+                    {0, -9, -21},  {9, -9, -21}, {9, 9, -21}, {0, 9, -21}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
+  const RangeImage image = level_image(21.0);
+  for (const auto method : {CorrespondenceMethod::depth_band, CorrespondenceMethod::id_buffer}) {
+    const Correspondence found = find(image, mesh, {.method = method});
+    CHECK(found.face[{9, 10}] / 2 == 1);
+    CHECK(found.face[{8, 10}] / 2 == 0);
+  }
+  CpuRasterizer rasterizer;
+  constexpr bool kAnyFace = true;
+  const Correspondence seen =
+      find_correspondence(rasterizer, image, estimate_slopes(image), mesh, {}, kAnyFace);
+  CHECK(seen.face[{9, 10}] / 2 == 0);
+}
+
 TEST_CASE("find_correspondence refuses bands that are none", "[mask]") {
   const RangeImage image = level_image(20.0);
   const TriangleMesh mesh = two_sheets(20.0);

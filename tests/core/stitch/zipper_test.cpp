@@ -215,6 +215,16 @@ TEST_CASE("zippering a flat mesh inserts the whole boundary of the patch", "[sti
   CHECK(report.skipped_vertices == 0);
   CHECK(report.skipped_segments == 0);
   CHECK(report.strip_faces == 0);
+  // The record names, of the mesh as it was, the face under each vertex, and every edge.
+  CHECK(result.record.segments.size() == report.inserted_segments);
+  REQUIRE(result.record.vertices.size() == report.inserted_vertices);
+  for (const auto& [vertex, face] : result.record.vertices) {
+    const auto& [a, b, c] = mesh.triangles[face];
+    const Vec3& point = scan.patch.mesh.positions[vertex];
+    const Vec3 foot =
+        closest_point_on_triangle(point, mesh.positions[a], mesh.positions[b], mesh.positions[c]);
+    CHECK(glm::length(point - foot) < 1e-3);  // the grid of the stitcher is coarser than doubles
+  }
   // Every vertex of the patch is there, and the collapse has left no short edge at the seam.
   for (const Vec3& p : scan.patch.mesh.positions) {
     CHECK(std::count(result.mesh.positions.begin(), result.mesh.positions.end(), p) == 1);
