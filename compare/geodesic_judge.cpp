@@ -173,6 +173,7 @@ std::vector<Vec3> shortest_over(const SurfaceMesh& surface, std::size_t end_face
     return {};
   }
   std::vector<Vec3> line;
+  line.reserve(found.size() + 1);
   for (const auto& p : found)
     line.emplace_back(p.x(), p.y(), p.z());
   if (line.size() == 1) line.push_back(line.front());

@@ -54,6 +54,7 @@ class StoredSession {
 /// that ended it
 int run_program(std::vector<std::string> arguments, bool quiet, const std::stop_token& stop) {
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (std::string& argument : arguments)
     argv.push_back(argument.data());
   argv.push_back(nullptr);
@@ -63,7 +64,7 @@ int run_program(std::vector<std::string> arguments, bool quiet, const std::stop_
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   }
   pid_t child = 0;
-  std::fflush(stdout);  // what was printed comes first
+  static_cast<void>(std::fflush(stdout));  // what was printed comes first
   const int failed = posix_spawn(&child, argv[0], &actions, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (failed != 0) throw Error(arguments[0] + ": cannot be started: " + std::strerror(failed));
