@@ -157,7 +157,7 @@ FINGER_SIZES = [1.0, 1.5, 2.0, 2.5, 3.0]
 FINGER_WINDOWS = 5
 
 
-def fingers_and_folds(length=243.0, width=40.0, height=5.0):
+def fingers_and_folds(length=243.0, width=48.0, height=5.0):
     """A slab with square fingers on its top and folds below; gaps as wide as what they part, by FINGER_SIZES.
 
     Windows through a fold of the last size make the genus FINGER_WINDOWS. Long enough that the pixel is 2.2

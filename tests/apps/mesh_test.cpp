@@ -1,6 +1,7 @@
 // rangezip mesh: one command from a cloud to a verified mesh, the same bytes however it is run.
 
 #include <catch2/catch.hpp>
+#include <fstream>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
@@ -63,6 +64,35 @@ TEST_CASE("mesh makes one closed sphere of a cloud, and says so", "[apps]") {
     seconds += stage["seconds"].get<double>();
   CHECK(json["stages"].size() >= 6);
   CHECK(seconds > 0.0);
+}
+
+TEST_CASE("mesh reports with its place what of the cloud no view reaches", "[apps]") {
+  const TemporaryFolder folder;
+  store_sphere(folder / "sphere.ply");
+  // A ball inside of the sphere, whose centre is (3, 0, 0).
+  {
+    shapes::Random random(2);
+    std::ofstream inside(folder / "inside.xyz");
+    for (int i = 0; i < 1000; ++i) {
+      const Vec3 p = 0.2 * random.direction() + Vec3{3.0, 0.0, 0.0};
+      inside << p.x << ' ' << p.y << ' ' << p.z << '\n';
+    }
+  }
+  const RunResult result =
+      mesh(folder, "out.ply", {folder / "inside.xyz", "--report", folder / "r.json"});
+  CAPTURE(result.err, result.out);
+  REQUIRE(result.code == 0);
+  CHECK_THAT(result.out, Contains("missing   1 place, area "));
+
+  const Json json = Json::parse(load(folder / "r.json"));
+  CHECK(json["coverage"] == Approx(20.0 / 21.0).margin(0.001));
+  CHECK(json["uncovered"]["points"] == 1000);
+  REQUIRE(json["uncovered"]["places"].size() == 1);
+  const Json& place = json["uncovered"]["places"][0];
+  CHECK(place["count"] == 1000);
+  CHECK(place["center"][0] == Approx(3.0).margin(0.02));
+  CHECK(place["radius"] == Approx(0.2).margin(0.02));
+  CHECK(json["unsupported"]["places"].empty());
 }
 
 TEST_CASE("mesh gives the same bytes again, with one thread, and without AVX2 and FMA", "[apps]") {
