@@ -116,6 +116,11 @@ void add_pass_options(CLI::App& command, ScanChoices& choices) {
   add_parsed(command, "--max-edge", choices.max_edge, parse_positive,
              "Longest step of depth that a triangle bridges, over the square root of 2", "PIXELS")
       ->group("Passes");
+  add_parsed(command, "--decimate", choices.decimate, parse_not_negative,
+             "Merge triangles where all samples stay within this of them, in pixels along the line "
+             "of sight [keep all]",
+             "TOLERANCE")
+      ->group("Passes");
   add_parsed(command, "--stitch", choices.stitch,
              one_of<StitchMethod>({{"clear-and-fill", StitchMethod::clear_and_fill},
                                    {"zipper", StitchMethod::zipper}}),
@@ -246,6 +251,7 @@ AddScan make_scan(const Scene& scene, const ScanChoices& choices) {
                           .bounds = resolution.bounds,
                           .pixel_size = resolution.pixel_size,
                           .point_size = resolution.point_size,
+                          .decimate = choices.decimate,
                           .has_points = scene.point_count() > 0};
   constexpr std::uint32_t kFirstView = 0;
   AddScan command = choices.only_new ? fill_scan(recipe, choices.direction, kFirstView)

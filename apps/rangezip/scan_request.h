@@ -43,6 +43,7 @@ struct ScanChoices {
   std::optional<int> erosions;
   std::optional<int> dilations;
   std::optional<double> max_edge;
+  std::optional<double> decimate;
   std::optional<StitchMethod> stitch;
   std::optional<double> collapse_ratio;
 };
