@@ -15,6 +15,10 @@ namespace rangezip {
 
 namespace {
 
+/// Steeper blocks (56 degrees) are not made: seen from where a later scan sees them well they would
+/// be wide faces, and what such a scan puts in the place of one may reach other sheets.
+constexpr double kMaxBlockSlope = 1.5;
+
 using PixelTriangle = std::array<Pixel, 3>;
 
 /// A square of 2^level x 2^level cells, at a multiple of its side.
@@ -98,7 +102,8 @@ class QuadTree {
     for_each_row(cells.height / side, [&](int row) {
       for (Block block{{0, row * side}, level}; block.origin.x + side <= cells.width;
            block.origin.x += side) {
-        if (has_four_children(block) && fits(block_triangles(corners_of(block)))) {
+        if (has_four_children(block) && !is_steep(block) &&
+            fits(block_triangles(corners_of(block)))) {
           set_level(block, level);
         }
       }
@@ -113,6 +118,15 @@ class QuadTree {
       if (block.level == 1 && !is_inner(child)) return false;
     }
     return true;
+  }
+
+  [[nodiscard]] bool is_steep(const Block& block) const {
+    const std::array<Pixel, 8> corners = corners_of(block).vertices;
+    const double most = kMaxBlockSlope * block.side() * image_.pixel_size(block.origin);
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (std::abs(image_[corners[k]] - image_[corners[(k + 1) % 4]]) > most) return true;
+    }
+    return false;
   }
 
   void set_level(const Block& block, int level) {

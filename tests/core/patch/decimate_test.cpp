@@ -95,6 +95,16 @@ TEST_CASE("decimate merges a flat patch to blocks but for the cells at its bound
     CHECK(pixels.count({k, k}) == (k <= 2 || k == 4 || k == 8 || k == 16 ? 1 : 0));
 }
 
+TEST_CASE("decimate leaves steep places as they are", "[patch]") {
+  const auto faces_at = [](double slope) {
+    const RangeImage image =
+        image_of(parallel_view({40, 40}), [=](Pixel p) { return 5.0 + slope * p.x; });
+    return decimate(image, whole_patch(image), {}).mesh.triangles.size();
+  };
+  CHECK(faces_at(1.49) < 2 * 39 * 39 / 2);
+  CHECK(faces_at(1.51) == 2 * 39 * 39);
+}
+
 TEST_CASE("decimate knows a plane in a central projection", "[patch]") {
   // The plane z = 0.3 x - 10 of eye space: the depth on the ray (x, y, -1) t is t.
   const View view = central_view({40, 40});
