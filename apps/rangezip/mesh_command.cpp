@@ -168,6 +168,10 @@ void add_mesh_command(CLI::App& app, Action& action) {
   add_parsed(command, "--method", options->reconstruct.method, one_of(kMethods),
              "auto, or paper: the passes of Kobbelt and Botsch 2000 as written [auto]", "METHOD");
   add_resolution_options(command, *options);
+  add_parsed(command, "--decimate", options->reconstruct.decimate, parse_positive,
+             "Let triangles grow where they stay within this of the surface, in pixel sizes: fewer "
+             "where it is flat, such as 0.05 [all of about one size]",
+             "TOLERANCE");
   add_parsed(command, "--views", options->reconstruct.views, parse_views,
              "How many views to plan at most, or auto: until the input is covered [auto]",
              "N|auto");

@@ -108,7 +108,11 @@ void scan(const ScanOptions& options, const Context& context) {
 
   const auto [amount, unit] = workload_of(input.scene);
   const Progress progress = console.start_task("scanning", amount, unit);
-  const AddScan command = make_scan(input.scene, options.choices);
+  AddScan command = make_scan(input.scene, options.choices);
+  if (options.choices.align) {
+    command = aligned(std::move(command), input.scene, *rasterizer, progress);
+    progress.check_stop();
+  }
   Session session(input.scene, std::move(initial), SessionOptions{.history_bytes = 0});
   const CommandReport report = session.apply(command, *rasterizer, progress);
   console.end_task();

@@ -9,9 +9,11 @@
 #include "apps/rangezip/exit_code.h"
 #include "apps/rangezip/values.h"
 #include "core/base/deterministic_math.h"
+#include "core/plan/align_to_feature.h"
 #include "core/reconstruct/resolution.h"
 #include "core/reconstruct/scan_recipe.h"
 #include "core/session/run_command.h"
+#include "core/session/session.h"
 
 namespace rangezip::app {
 
@@ -60,6 +62,12 @@ void add_view_options(CLI::App& command, ScanChoices& choices) {
       "H");
   add("--perspective", choices.perspective, parse_positive,
       "Central projection with this vertical angle, from where all is seen [parallel]", "DEGREES");
+  command
+      .add_flag(
+          "--align", choices.align,
+          "Turn and shift the image so that the dominant sharp edge runs along a row or column "
+          "of pixels")
+      ->group("View");
   add("--region", choices.region, parse_polygon,
       "Take only what is seen inside of this polygon: corners in pixels, from the lower left of "
       "the image, y up",
@@ -115,6 +123,11 @@ void add_pass_options(CLI::App& command, ScanChoices& choices) {
   add_count(command, "--dilations", choices.dilations, 0, 100, "After the erosions, in rounds");
   add_parsed(command, "--max-edge", choices.max_edge, parse_positive,
              "Longest step of depth that a triangle bridges, over the square root of 2", "PIXELS")
+      ->group("Passes");
+  add_parsed(command, "--decimate", choices.decimate, parse_not_negative,
+             "Merge triangles where all samples stay within this of them, in pixels along the line "
+             "of sight [keep all]",
+             "TOLERANCE")
       ->group("Passes");
   add_parsed(command, "--stitch", choices.stitch,
              one_of<StitchMethod>({{"clear-and-fill", StitchMethod::clear_and_fill},
@@ -233,6 +246,11 @@ void add_scan_choices(CLI::App& command, ScanChoices& choices) {
 }
 
 AddScan make_scan(const Scene& scene, const ScanChoices& choices) {
+  if (choices.align && (choices.size || !choices.region.empty())) {
+    throw UsageError(
+        "--align: turns the image, whose size and pixels are then others; give neither "
+        "--size nor --region");
+  }
   const std::vector<Vec3> samples = evidence_points(scene);
   const Resolution wanted =
       choose_resolution(scene, samples, choices.pixel_size, std::nullopt, false);
@@ -246,6 +264,7 @@ AddScan make_scan(const Scene& scene, const ScanChoices& choices) {
                           .bounds = resolution.bounds,
                           .pixel_size = resolution.pixel_size,
                           .point_size = resolution.point_size,
+                          .decimate = choices.decimate,
                           .has_points = scene.point_count() > 0};
   constexpr std::uint32_t kFirstView = 0;
   AddScan command = choices.only_new ? fill_scan(recipe, choices.direction, kFirstView)
@@ -256,6 +275,19 @@ AddScan make_scan(const Scene& scene, const ScanChoices& choices) {
   command.scan.region = choices.region;
   if (choices.point_size) command.scan.point_size = *choices.point_size;
   choose_passes(command, choices, resolution.pixel_size);
+  return command;
+}
+
+AddScan aligned(AddScan command, const Scene& scene, Rasterizer& rasterizer,
+                const Progress& progress) {
+  Session session(scene, {}, SessionOptions{.history_bytes = 0});
+  session.apply(command, rasterizer, progress);
+  const auto camera = align_to_feature(session.last_scan()->image);
+  if (!camera) {
+    throw UsageError("--align: no sharp straight edge is seen from --direction");
+  }
+  command.scan.camera = camera->camera;
+  command.scan.extent = camera->extent;
   return command;
 }
 

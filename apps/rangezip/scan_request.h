@@ -23,6 +23,7 @@ struct ScanChoices {
   std::optional<double> pixel_size;
   std::optional<double> perspective;  ///< full vertical angle, degrees
   std::vector<Plane> clip_planes;
+  bool align = false;  ///< the grid with the dominant feature line
   std::vector<Vec2> region;
   std::optional<int> point_size;
 
@@ -43,6 +44,7 @@ struct ScanChoices {
   std::optional<int> erosions;
   std::optional<int> dilations;
   std::optional<double> max_edge;
+  std::optional<double> decimate;
   std::optional<StitchMethod> stitch;
   std::optional<double> collapse_ratio;
 };
@@ -52,5 +54,11 @@ void add_scan_choices(CLI::App& command, ScanChoices& choices);
 /// The command that carries the choices out on a scene.
 /// @throws UsageError if choices contradict each other, InvalidArgument if one is out of range.
 [[nodiscard]] AddScan make_scan(const Scene& scene, const ScanChoices& choices);
+
+/// The same command with its camera aligned by align_to_feature(), for which it is carried out
+/// once.
+/// @throws UsageError if no feature line is seen, Cancelled.
+[[nodiscard]] AddScan aligned(AddScan command, const Scene& scene, Rasterizer& rasterizer,
+                              const Progress& progress);
 
 }  // namespace rangezip::app

@@ -113,6 +113,7 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
                                        {.pixel_size = h,
                                         .window = fit.window,
                                         .triangles = options.triangles,
+                                        .tolerance = options.flat_tolerance * h,
                                         .rounds = options.relaxations},
                                        progress);
   report.split_edges = remeshed.split_edges;

@@ -135,6 +135,14 @@ void describe(Fields& f, TriangulateOptions& options) {
 }
 
 template <class Fields>
+void describe(Fields& f, DecimateOptions& options) {
+  auto& [tolerance, max_block] = options;
+  f.number("tolerance", tolerance, kNotNegative,
+           "pixel sides along the line of sight, of every sample from its triangle");
+  f.integer("max_block", max_block, kAtLeastOne, "cells along the side of the largest blocks");
+}
+
+template <class Fields>
 void describe(Fields& f, StitchOptions& options) {
   auto& [method, band, clearance, max_gap, min_strip_cosine, collapse_ratio, min_component, view] =
       options;
@@ -170,7 +178,7 @@ template <class Fields>
 void describe(Fields& f, ScanRequest& request) {
   auto& [camera, extent, region, point_size, see_through, back_side, plane_fit, fill_holes, median,
          steep_cells, correspondence, unmatched_only, quality, smooth_quality, clean_mask,
-         triangulate] = request;
+         triangulate, decimate] = request;
   f.camera("camera", camera, "where the virtual scanner stands");
   f.object("extent", extent, "size of the image");
   f.polygon("region", region, "corners [x, y] in window coordinates (pixels, y up); empty: all");
@@ -191,6 +199,7 @@ void describe(Fields& f, ScanRequest& request) {
   f.boolean("smooth_quality", smooth_quality, "the quality of a sample varies less between pixels");
   f.object("clean_mask", clean_mask, "erosion and dilation of what is taken");
   f.object("triangulate", triangulate, "how samples become triangles");
+  f.optional("decimate", decimate, "larger triangles where the patch is flat; null: not run");
 }
 
 template <class Fields>
@@ -229,7 +238,7 @@ template <class Fields>
 void describe(Fields& f, FinishMesh& command) {
   auto& [options] = command;
   auto& [method, pixel_size, max_hole_perimeter, narrow_width, rounds, relaxations, triangles,
-         snap_features, min_component] = options;
+         flat_tolerance, snap_features, min_component] = options;
   f.choice("method", method,
            std::array{Choice<FinishMethod>{"fast", FinishMethod::fast},
                       Choice<FinishMethod>{"full", FinishMethod::full}},
@@ -244,6 +253,9 @@ void describe(Fields& f, FinishMesh& command) {
   f.integer("relaxations", relaxations, kCount, "rounds of improving the triangles");
   f.integer("triangles", triangles, kCount,
             "how many there are to be, met within a few percent; 0: as many as come");
+  f.number(
+      "flat_tolerance", flat_tolerance, kNotNegative,
+      "pixel sizes; triangles grow where they stay within this of the surface; 0: of one size");
   f.boolean("snap_features", snap_features, "moves vertices onto sharp edges and corners");
   f.integer("min_component", min_component, kCount, "triangles; smaller pieces are dropped");
 }

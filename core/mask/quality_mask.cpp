@@ -85,7 +85,7 @@ Mask keep_better_samples(const Grid<double>& quality, const SlopeImage& slopes, 
   const double max_slope = options.max_replacing_slope;
   const auto replaces = [&](Pixel p, const Triangle& old) {
     return glm::dot(slopes[p], slopes[p]) <= max_slope * max_slope &&
-           quality[p] < options.hysteresis * longest_side(mesh, old);
+           quality[p] < options.hysteresis * sampling_of(mesh, old);
   };
   Mask kept(active.extent(), 0);
   for_each_row(active.extent().height, [&](int y) {

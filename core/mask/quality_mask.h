@@ -25,7 +25,8 @@ struct QualityMaskOptions {
 };
 
 /// Deactivates the samples that lie on a face of `mesh` which is sampled at least as well: its
-/// longest side times hysteresis is no longer than the sample's quality. A sample on no face stays
+/// quality (sampling_of(), its longest side unless it was decimated) times hysteresis is no larger
+/// than the sample's. A sample on no face stays
 /// active, since it extends the surface [Kobbelt, Botsch 2000, 4.3]; one seen from behind never.
 [[nodiscard]] Mask keep_better_samples(const Grid<double>& quality, const SlopeImage& slopes,
                                        const Mask& active, const TriangleMesh& mesh,

@@ -20,6 +20,18 @@ double longest_side(const TriangleMesh& mesh, const Triangle& triangle) {
       std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)}));
 }
 
+double sampling_of(const TriangleMesh& mesh, const Triangle& triangle) {
+  const double longest = longest_side(mesh, triangle);
+  if (mesh.sources.empty()) return longest;
+  double coarsest = 0.0;
+  for (const std::uint32_t v : triangle) {
+    const double sampling = mesh.sources[v].sampling;
+    if (sampling == 0.0) return longest;
+    coarsest = std::max(coarsest, sampling);
+  }
+  return std::min(longest, coarsest);
+}
+
 void remove_vertices(TriangleMesh& mesh, const std::vector<std::uint8_t>& marked) {
   std::vector<std::uint32_t> new_index(mesh.positions.size());
   std::uint32_t next = 0;

@@ -10,10 +10,13 @@ namespace rangezip {
 
 /// Where a vertex comes from: the primitive of the scene that won its pixel (Scene::number_of), and
 /// the number of the scan. kNoPrimitive / kNoView for vertices that a fill or a finish made.
+/// A decimated patch also says how densely the surface was sampled, which its faces do not show.
 struct VertexSource {
   static constexpr std::uint32_t kNoView = 0xffff'ffffU;
   PrimitiveId primitive = kNoPrimitive;
   std::uint32_t view = kNoView;
+  float sampling =
+      0.0F;  ///< sample_quality() of a decimated patch, model units; 0: as the faces are
 
   friend bool operator==(const VertexSource&, const VertexSource&) = default;
 };
@@ -37,6 +40,10 @@ struct TriangleMesh {
 /// Longest side of a triangle, model units: the paper's quality of an old triangle
 /// [Kobbelt, Botsch 2000, 4.3].
 [[nodiscard]] double longest_side(const TriangleMesh& mesh, const Triangle& triangle);
+
+/// Quality of the samples that a triangle stands for, model units, small is good: its longest side,
+/// or what its three vertices remember of their sampling if that is finer.
+[[nodiscard]] double sampling_of(const TriangleMesh& mesh, const Triangle& triangle);
 
 /// Drops the marked (1) positions, keeping the order of the others.
 /// @pre one mark per position; no triangle uses a marked one

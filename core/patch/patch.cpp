@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "core/image/grid_cells.h"
@@ -126,7 +127,7 @@ class FanCleaner {
 constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
 
 /// Numbers the used pixels row by row, then lists the faces cell by cell.
-Patch patch_from_cells(const RangeImage& image, const GridCells& cells) {
+Patch patch_from_cells(const RangeImage& image, GridCells cells) {
   const Extent extent = image.extent();
   Grid<std::uint32_t> vertex_at(extent, kNoVertex);
   std::size_t faces = 0;
@@ -161,6 +162,7 @@ Patch patch_from_cells(const RangeImage& image, const GridCells& cells) {
     patch.mesh.triangles.push_back(
         {vertex_at[corners[0]], vertex_at[corners[1]], vertex_at[corners[2]]});
   });
+  patch.cells = std::move(cells);
   return patch;
 }
 
@@ -188,8 +190,23 @@ std::vector<std::size_t> sizes_of_pieces(const TriangleMesh& mesh) {
   return size;
 }
 
+/// Takes the triangle of one cell out of the patch's cells.
+void clear_cell_of(const Triangle& triangle, Patch& patch) {
+  std::array<Pixel, 3> corners;
+  std::transform(triangle.begin(), triangle.end(), corners.begin(),
+                 [&](std::uint32_t v) { return patch.pixels[v]; });
+  const Pixel cell{std::min({corners[0].x, corners[1].x, corners[2].x}),
+                   std::min({corners[0].y, corners[1].y, corners[2].y})};
+  std::uint8_t& bits = patch.cells[cell];
+  const bool is_lower = grid_triangle(cell, bits, kLowerTriangle) == corners;
+  bits = static_cast<std::uint8_t>(bits & ~(is_lower ? kLowerTriangle : kUpperTriangle));
+}
+
 void remove_small_pieces(Patch& patch, std::size_t min_triangles) {
   const std::vector<std::size_t> size = sizes_of_pieces(patch.mesh);
+  for (const Triangle& t : patch.mesh.triangles) {
+    if (size[t[0]] < min_triangles) clear_cell_of(t, patch);
+  }
   std::erase_if(patch.mesh.triangles,
                 [&](const Triangle& t) { return size[t[0]] < min_triangles; });
   // Vertices of a piece go or stay together, so both lists shrink by the same rule.
@@ -206,7 +223,7 @@ void remove_small_pieces(Patch& patch, std::size_t min_triangles) {
 Patch triangulate(const RangeImage& image, const Mask& active, const TriangulateOptions& options) {
   GridCells cells = build_grid_cells(image, active, grid_cell_options(options));
   FanCleaner(cells).clean();
-  Patch patch = patch_from_cells(image, cells);
+  Patch patch = patch_from_cells(image, std::move(cells));
   if (options.min_component > 1) remove_small_pieces(patch, options.min_component);
   return patch;
 }

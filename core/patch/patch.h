@@ -14,6 +14,8 @@ namespace rangezip {
 struct Patch {
   TriangleMesh mesh;
   std::vector<Pixel> pixels;  ///< vertex i is the sample of pixels[i]
+  GridCells cells;            ///< what the triangles cover; these are larger than cells only after
+                              ///< decimate(), where there are blocks of whole cells
 };
 
 struct TriangulateOptions {

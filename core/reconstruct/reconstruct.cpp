@@ -123,6 +123,7 @@ class Run {
                .bounds = resolution.bounds,
                .pixel_size = resolution.pixel_size,
                .point_size = resolution.point_size,
+               .decimate = options_.decimate,
                .has_points = scene_.point_count() > 0};
     if (recipe_.has_points) recipe_.one_sided = is_open_sheet(rasterizer_, scene_points());
     result_.report.pixel_size = recipe_.pixel_size;
@@ -171,6 +172,7 @@ class Run {
       command.options.method = *options_.finish;
       command.options.pixel_size = recipe_.pixel_size;
       command.options.triangles = options_.triangles.value_or(0);
+      command.options.flat_tolerance = options_.decimate.value_or(0.0);
       apply(command, part_of(progress_, "finish", kFinishShare, kCheckShare));
     }
     clock_.finish("finish");

@@ -27,6 +27,8 @@ struct ReconstructOptions {
   std::optional<std::size_t> triangles;  ///< target count, met within a few percent by the full
                                          ///< finish; without it only roughly
   std::optional<int> views;              ///< planned views; absent: until the cloud is covered
+  std::optional<double> decimate;        ///< in pixel sides: triangles grow where they stay within
+                                         ///< this of the surface, in scans and in the full finish
   std::optional<FinishMethod> finish = FinishMethod::full;  ///< absent: no finish
   int threads = 0;  ///< 0: all of the machine; the mesh never depends on it
 };

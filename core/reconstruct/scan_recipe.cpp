@@ -14,6 +14,7 @@ AddScan framed_scan(const ScanRecipe& recipe, const Vec3& toward_viewer, std::ui
   command.scan.extent = framed.extent;
   command.scan.point_size = recipe.point_size;
   command.scan.triangulate = {.max_edge = 2.75, .max_slope_cosine = kCosine75Degrees};
+  if (recipe.decimate) command.scan.decimate = DecimateOptions{.tolerance = *recipe.decimate};
   command.stitch.view = view;
   return command;
 }

@@ -11,12 +11,13 @@ namespace rangezip {
 /// What every scan of an automatic run has in common.
 struct ScanRecipe {
   ReconstructMethod method = ReconstructMethod::automatic;
-  Box bounds;               ///< what the image must show, model units
-  double pixel_size = 0.0;  ///< model units
-  int point_size = 1;       ///< pixels
-  bool has_points = true;   ///< false: polygons only, no passes against gaps between points
-  bool one_sided = false;   ///< an open sheet, seen from the side of the first view; else a
-                            ///< visibility vote tells outsides from insides
+  Box bounds;                      ///< what the image must show, model units
+  double pixel_size = 0.0;         ///< model units
+  int point_size = 1;              ///< pixels
+  std::optional<double> decimate;  ///< tolerance of DecimateOptions
+  bool has_points = true;          ///< false: polygons only, no passes against gaps between points
+  bool one_sided = false;          ///< an open sheet, seen from the side of the first view; else a
+                                   ///< visibility vote tells outsides from insides
 };
 
 /// The command that scans along -`toward_viewer` and stitches what is better or new.

@@ -115,6 +115,15 @@ void record_sources(const Scene& scene, Scan& scan) {
   }
 }
 
+/// The faces of a decimated patch are larger than what they stand for.
+void record_sampling(Scan& scan, const ScanRequest& request) {
+  const Grid<double> quality =
+      sample_quality(scan.image, scan.slopes, scan.active, request.smooth_quality,
+                     grid_cell_options(request.triangulate));
+  for (std::size_t v = 0; v < scan.patch.pixels.size(); ++v)
+    scan.patch.mesh.sources[v].sampling = static_cast<float>(quality[scan.patch.pixels[v]]);
+}
+
 }  // namespace
 
 Scan scan(Rasterizer& rasterizer, const Scene& scene, const TriangleMesh& mesh,
@@ -138,7 +147,11 @@ Scan scan(Rasterizer& rasterizer, const Scene& scene, const TriangleMesh& mesh,
   progress.at("scan", 0.8);
   result.active = choose_active_samples(result, mesh, request, result.report);
   result.patch = triangulate(result.image, result.active, request.triangulate);
+  if (request.decimate) {
+    result.patch = decimate(result.image, std::move(result.patch), *request.decimate);
+  }
   record_sources(scene, result);
+  if (request.decimate) record_sampling(result, request);
 
   result.report.samples = count_of(sample_mask(result.image));
   result.report.matched = static_cast<std::size_t>(std::count_if(

@@ -17,6 +17,7 @@
 #include "core/mask/mask.h"
 #include "core/mask/morphology.h"
 #include "core/mask/quality_mask.h"
+#include "core/patch/decimate.h"
 #include "core/patch/patch.h"
 #include "core/scene/scene.h"
 
@@ -41,6 +42,7 @@ struct ScanRequest {
   bool smooth_quality = true;                 ///< see sample_quality()
   CleanMaskOptions clean_mask;
   TriangulateOptions triangulate;
+  std::optional<DecimateOptions> decimate;  ///< of the patch, before it is stitched in
 };
 
 /// Per-scan counts for the report.

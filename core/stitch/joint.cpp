@@ -89,7 +89,7 @@ void SeamEdges::mark_patch_boundary() {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t from = t[k];
       const std::uint32_t to = t[(k + 1) % 3];
-      if (sheet_.has_edge(pixels[to], pixels[from])) continue;
+      if (!sheet_.is_boundary(pixels[from], pixels[to])) continue;
       const SeamSegment edge{joint_.vertex_of_patch[from], joint_.vertex_of_patch[to]};
       patch_boundary_.push_back(edge);
       for (const std::uint32_t v : edge)

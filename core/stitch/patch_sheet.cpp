@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace rangezip {
 
@@ -31,47 +32,36 @@ PatchSheet::PatchSheet(const PatchScan& scan, int radius) : image_(&scan.image),
   const Pixel end{std::min(extent.width, last_.x + margin + 1),
                   std::min(extent.height, last_.y + margin + 1)};
   samples_.reset({end.x - origin_.x, end.y - origin_.y});
-  add_cells(scan.patch);
+  add_cells(scan.patch.cells);
   grow(add_samples(scan), scan.slopes);
 }
 
-void PatchSheet::add_cells(const Patch& patch) {
-  for (const Triangle& triangle : patch.mesh.triangles) {
-    Pixel lower = patch.pixels[triangle[0]];
-    for (const std::uint32_t corner : triangle) {
-      const Pixel p = patch.pixels[corner];
-      lower = {std::min(lower.x, p.x), std::min(lower.y, p.y)};
-    }
-    // The corner of the cell that the triangle lacks tells which of the four it is.
-    const Pixel upper{lower.x, lower.y + 1};
-    const Pixel opposite{lower.x + 1, lower.y + 1};
-    const auto lacks = [&](Pixel corner) {
-      return std::none_of(triangle.begin(), triangle.end(),
-                          [&](std::uint32_t v) { return patch.pixels[v] == corner; });
-    };
-    std::uint8_t& cell = at(lower).cell;
-    if (lacks(opposite)) {
-      cell |= kLowerTriangle | kFallingDiagonal;
-    } else if (lacks(lower)) {
-      cell |= kUpperTriangle | kFallingDiagonal;
-    } else {
-      cell |= lacks(upper) ? kLowerTriangle : kUpperTriangle;
-    }
+void PatchSheet::add_cells(const GridCells& cells) {
+  for (int y = first_.y; y < last_.y; ++y) {
+    for (int x = first_.x; x < last_.x; ++x)
+      at({x, y}).cell = cells[{x, y}];
   }
 }
 
 std::vector<Pixel> PatchSheet::add_samples(const PatchScan& scan) {
   std::vector<Pixel> front;
-  for (const Triangle& triangle : scan.patch.mesh.triangles) {
-    for (const std::uint32_t corner : triangle) {
-      const Pixel p = scan.patch.pixels[corner];
-      SheetSample& sample = at(p);
-      if (sample.ring == 0) continue;
-      sample.ring = 0;
-      sample.depth = scan.image[p];
-      sample.slope = scan.slopes[p];
-      sample.stretch = limited_stretch(sample.slope);
-      front.push_back(p);
+  const auto add = [&](Pixel p) {
+    SheetSample& sample = at(p);
+    if (sample.ring == 0) return;
+    sample.ring = 0;
+    sample.depth = scan.image[p];
+    sample.slope = scan.slopes[p];
+    sample.stretch = limited_stretch(sample.slope);
+    front.push_back(p);
+  };
+  for (int y = first_.y; y < last_.y; ++y) {
+    for (Pixel cell{first_.x, y}; cell.x < last_.x; ++cell.x) {
+      const std::uint8_t bits = at(cell).cell;
+      for (const std::uint8_t which : {kLowerTriangle, kUpperTriangle}) {
+        if ((bits & which) == 0) continue;
+        for (const Pixel corner : grid_triangle(cell, bits, which))
+          add(corner);
+      }
     }
   }
   return front;
@@ -142,6 +132,16 @@ bool PatchSheet::has_edge(Pixel from, Pixel to) const {
   }
   return dx < 0 ? cell_has({to.x, from.y}, kLowerTriangle, kNeither)
                 : cell_has({from.x, to.y}, kUpperTriangle, kNeither);
+}
+
+bool PatchSheet::is_boundary(Pixel from, Pixel to) const {
+  const Pixel step{to.x - from.x, to.y - from.y};
+  if (std::abs(step.x) > 1 || std::abs(step.y) > 1) return false;
+  if (step.x != 0 && step.y != 0) {
+    const Pixel cell{std::min(from.x, to.x), std::min(from.y, to.y)};
+    if (((*this)[cell].cell & kBothTriangles) == kBothTriangles) return false;
+  }
+  return !has_edge(to, from);
 }
 
 double PatchSheet::tolerance(double stretch, double depth, double band) const {

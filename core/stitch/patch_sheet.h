@@ -16,7 +16,7 @@ struct SheetSample {
   glm::dvec2 slope{0.0, 0.0};
   double stretch = 1.0;          ///< stretch_of(slope), at most kMaxStretch
   std::uint8_t ring = kUnknown;  ///< pixels from the patch, 0 on it
-  std::uint8_t cell = 0;         ///< which triangles the cell to the upper right has
+  std::uint8_t cell = 0;         ///< which triangles the cell to the upper right has (GridCells)
 
   friend bool operator==(const SheetSample&, const SheetSample&) = default;
 };
@@ -49,9 +49,13 @@ class PatchSheet {
   /// Whether a triangle of the patch covers the place (see in_pixels).
   [[nodiscard]] bool covers(const Vec2& place) const;
 
-  /// Whether a triangle of the patch runs along the edge in this direction.
+  /// Whether a triangle of a cell of the patch runs along the edge in this direction.
   /// @pre the pixels are neighbours
   [[nodiscard]] bool has_edge(Pixel from, Pixel to) const;
+
+  /// Whether an edge of a triangle of the patch bounds it. Edges in blocks of cells
+  /// (core/patch/decimate.h) do not.
+  [[nodiscard]] bool is_boundary(Pixel from, Pixel to) const;
 
   /// Whether a depth somewhere in the cell belongs to the sheet: it differs from the mean of what
   /// is known at the cell's corners by at most `band` pixel sides times the largest stretch there,
@@ -66,12 +70,9 @@ class PatchSheet {
   [[nodiscard]] double depth_at(const Vec2& place, Pixel pixel) const;
 
  private:
-  static constexpr std::uint8_t kLowerTriangle = 1;  ///< below the diagonal
-  static constexpr std::uint8_t kUpperTriangle = 2;
-  static constexpr std::uint8_t kBothTriangles = 3;
-  static constexpr std::uint8_t kFallingDiagonal = 4;  ///< from upper left to lower right
+  static constexpr std::uint8_t kBothTriangles = kLowerTriangle | kUpperTriangle;
 
-  void add_cells(const Patch& patch);
+  void add_cells(const GridCells& cells);
   std::vector<Pixel> add_samples(const PatchScan& scan);
   void grow(std::vector<Pixel> front, const SlopeImage& slopes);
   [[nodiscard]] SheetSample& at(Pixel p) { return samples_[{p.x - origin_.x, p.y - origin_.y}]; }

@@ -52,7 +52,7 @@ std::vector<std::array<std::uint32_t, 2>> boundary_of(const Patch& patch, const 
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t from = t[k];
       const std::uint32_t to = t[(k + 1) % 3];
-      if (!sheet.has_edge(patch.pixels[to], patch.pixels[from])) boundary.push_back({from, to});
+      if (sheet.is_boundary(patch.pixels[from], patch.pixels[to])) boundary.push_back({from, to});
     }
   }
   return boundary;

@@ -199,6 +199,8 @@ TEST_CASE("the options of mesh do what they say", "[apps]") {
   const double wanted = faces({"--triangles", "4000"});
   CHECK(wanted > 4000 / 1.5);
   CHECK(wanted < 4000 * 1.5);
+  // Where triangles may be off by a tenth of a pixel, they need not be as small as the pixels.
+  CHECK(faces({"--pixel-size", "0.04", "--decimate", "0.1"}) < 0.5 * fine);
 
   mesh(folder, "out.ply", {"--views", "3", "--finish", "none", "--report", folder / "r.json"});
   const Json report = Json::parse(load(folder / "r.json"));

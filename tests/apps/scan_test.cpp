@@ -176,6 +176,38 @@ TEST_CASE("a mesh that is not manifold is refused with exit code 5", "[apps]") {
   CHECK(folder.count() == 2);
 }
 
+TEST_CASE("an aligned and decimated scan has a sharp edge, and plays to the same bytes", "[apps]") {
+  const TemporaryFolder folder;
+  folder.store("roof.obj",
+               "v -1 0 0\nv 1 0.3 0\nv -0.8 -1 -1\nv 1.2 -0.7 -1\nv -1.2 1 -1\nv 0.8 1.3 -1\n"
+               "f 3 4 2 1\nf 1 2 6 5\n");
+  const RunResult result =
+      run({"scan", folder / "roof.obj", "-o", folder / "out.ply", "--pixel-size", "0.03", "--align",
+           "--decimate", "0.01", "--session", folder / "s.json"});
+  CAPTURE(result.err);
+  REQUIRE(result.code == 0);
+  const TriangleMesh mesh = read_mesh(folder / "out.ply");
+  std::size_t on_ridge = 0;
+  for (const Vec3& p : mesh.positions)
+    on_ridge += p.z > -1e-4 ? 1 : 0;
+  CHECK(on_ridge > 20);                 // of about 65 pixels, merged by twos
+  CHECK(mesh.triangles.size() < 3000);  // of 6,000 and more without decimation
+  REQUIRE(run({"play", folder / "s.json", "-o", folder / "again.ply"}).code == 0);
+  CHECK((load(folder / "out.ply") == load(folder / "again.ply")));
+}
+
+TEST_CASE("alignment needs a feature, and an image whose size is its own", "[apps]") {
+  const TemporaryFolder folder;
+  store_sphere(folder / "sphere.ply");
+  const RunResult smooth = scan(folder, {"--align", "-o", folder / "out.ply"});
+  CHECK(smooth.code == 1);
+  CHECK_THAT(smooth.err, Contains("--align: no sharp straight edge is seen"));
+  const RunResult sized = scan(folder, {"--align", "--size", "90,90", "-o", folder / "out.ply"});
+  CHECK(sized.code == 1);
+  CHECK_THAT(sized.err, Contains("give neither --size nor --region"));
+  CHECK(folder.count() == 1);
+}
+
 TEST_CASE("a scan that takes nothing writes no mesh", "[apps]") {
   const TemporaryFolder folder;
   store_sphere(folder / "sphere.ply", 1000);

@@ -59,6 +59,24 @@ TEST_CASE("vertices of a patch are samples, numbered row by row", "[patch]") {
   CHECK(report_mesh(patch.mesh).boundary_loops == 2);
 }
 
+TEST_CASE("the cells of a patch are those of its triangles, without dropped pieces", "[patch]") {
+  RangeImage image = flat_image({8, 4}, 10.0);
+  for (int y = 0; y < 4; ++y)
+    image[{2, y}] = kNoSample;  // one column of cells on the left, four on the right
+  const Patch patch = triangulate(image, full_mask({8, 4}), {.min_component = 7});
+  std::size_t triangles = 0;
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 8; ++x) {
+      const std::uint8_t bits = patch.cells[{x, y}];
+      CHECK((x >= 3 || (bits & (kLowerTriangle | kUpperTriangle)) == 0));
+      triangles += (bits & kLowerTriangle) != 0 ? 1 : 0;
+      triangles += (bits & kUpperTriangle) != 0 ? 1 : 0;
+    }
+  }
+  CHECK(patch.mesh.triangles.size() == 2 * 4 * 3);
+  CHECK(triangles == patch.mesh.triangles.size());
+}
+
 TEST_CASE("triangulate cuts a cell along the smaller step of depth", "[patch]") {
   const Extent extent{2, 2};
   RangeImage image = flat_image(extent);

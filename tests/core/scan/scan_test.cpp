@@ -100,6 +100,22 @@ TEST_CASE("a central projection scans the same sphere", "[scan]") {
   }
 }
 
+TEST_CASE("the same view does not replace what it saw before as larger triangles", "[scan]") {
+  const Scene scene = scans::scene_of(shapes::sphere(1.0, 100));
+  ScanRequest request = scans::plain_request(scene, {1, 2, 3}, 0.005);
+  request.quality = QualityMaskOptions{};
+  const Scan full = scans::run(scene, request);
+  request.decimate = DecimateOptions{.tolerance = 0.1};
+  const Scan first = scans::run(scene, request);
+  check_patch(first);
+  CHECK(first.patch.cells == full.patch.cells);
+  CHECK(first.report.patch_faces < full.report.patch_faces / 2);
+  CHECK(scans::run(scene, request, first.patch.mesh).report.active < first.report.active / 50);
+  TriangleMesh forgetful = first.patch.mesh;
+  forgetful.sources.clear();
+  CHECK(scans::run(scene, request, forgetful).report.active > first.report.active / 5);
+}
+
 TEST_CASE("the same view twice replaces nothing", "[scan]") {
   const Scene scene = scans::scene_of(shapes::sphere(1.0, 100));
   ScanRequest request = scans::plain_request(scene, {1, 2, 3}, 0.02);

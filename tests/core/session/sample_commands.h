@@ -46,6 +46,7 @@ inline std::vector<Command> full_commands(shapes::Random& random) {
   scan.scan.triangulate = {.max_edge = share(),
                            .max_slope_cosine = share(),
                            .min_component = static_cast<std::size_t>(count())};
+  scan.scan.decimate = {.tolerance = share(), .max_block = count()};
   scan.stitch.method = StitchMethod::zipper;
   scan.stitch.band = share();
   scan.stitch.clearance = share();
@@ -70,6 +71,7 @@ inline std::vector<Command> full_commands(shapes::Random& random) {
   finish.options.rounds = count() + 10;
   finish.options.relaxations = count() + 10;
   finish.options.triangles = static_cast<std::size_t>(count());
+  finish.options.flat_tolerance = share();
   finish.options.snap_features = false;
   finish.options.min_component = static_cast<std::size_t>(count());
 

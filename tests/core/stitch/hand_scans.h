@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "core/mesh/mesh_report.h"
@@ -37,6 +38,12 @@ inline Scan hand_scan(const DepthAt& depth, const MaskAt& is_active,
   scan.patch = triangulate(scan.image, scan.active);
   for (const Pixel pixel : scan.patch.pixels)
     scan.patch.mesh.sources.push_back({.primitive = scan.scene_buffer.id[pixel]});
+  return scan;
+}
+
+/// The same with larger triangles where its patch is flat.
+inline Scan decimated(Scan scan, double tolerance = 1e-6) {
+  scan.patch = decimate(scan.image, std::move(scan.patch), {.tolerance = tolerance});
   return scan;
 }
 

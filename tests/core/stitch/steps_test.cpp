@@ -53,6 +53,34 @@ TEST_CASE("what lies behind the viewer has no image, what is far aside has one o
   CHECK(image.points[2].x == kGridLimit);
 }
 
+TEST_CASE("a patch sheet knows the boundary of a decimated patch", "[stitch]") {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    CAPTURE(seed);
+    shapes::Random random(seed);
+    const double slope = random.between(0.0, 0.1);
+    const Scan full = hand_scan([&](Pixel p) { return 20.0 + slope * std::max(0, p.x - p.y); },
+                                [&](Pixel p) {
+                                  return rectangle({5, 5}, {54, 50})(p) && random.bits() % 400 != 0;
+                                });
+    const Scan scan = decimated(full, 0.01);
+    const PatchSheet sheet(scan, 3);
+    std::set<std::array<Pixel, 2>> edges;
+    const auto& pixels = scan.patch.pixels;
+    for (const Triangle& t : scan.patch.mesh.triangles) {
+      for (std::size_t k = 0; k < 3; ++k)
+        edges.insert({pixels[t[k]], pixels[t[(k + 1) % 3]]});
+    }
+    for (const auto& [from, to] : edges)
+      REQUIRE(sheet.is_boundary(from, to) == (edges.count({to, from}) == 0));
+    // What is covered does not change.
+    const PatchSheet before(full, 3);
+    for (int y = 0; y < kExtent.height; ++y) {
+      for (int x = 0; x < kExtent.width; ++x)
+        REQUIRE(sheet[{x, y}] == before[{x, y}]);
+    }
+  }
+}
+
 TEST_CASE("a patch sheet knows the edges and the places of its triangles", "[stitch]") {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     CAPTURE(seed);

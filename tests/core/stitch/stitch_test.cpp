@@ -87,6 +87,23 @@ TEST_CASE("two patches of a plane that overlap cover their union once", "[stitch
   CHECK(report.boundary_loops == 1);
 }
 
+TEST_CASE("decimated patches that overlap cover their union once", "[stitch]") {
+  const StitchMethod method = any_method();
+  const int left = GENERATE(8, 13, 22, 31);
+  CAPTURE(left);
+  const Scan first = decimated(hand_scan(plane(20.0), rectangle({4, 4}, {40, 56})));
+  const TriangleMesh mesh = stitched({}, first, method);
+  const Scan second = decimated(hand_scan(plane(20.0), rectangle({left, 4}, {60, 56}), mesh));
+  const TriangleMesh both = stitched(mesh, second, method);
+  const double area = 56.0 * 52.0;
+  CHECK(area_of(both) == exactly(area));
+  CHECK(projected_area(both) == exactly(area));
+  const MeshReport report = report_mesh(both);
+  CHECK(report.euler == 1);
+  CHECK(report.boundary_loops == 1);
+  CHECK(static_cast<double>(both.triangles.size()) < 1.2 * area);  // of two a pixel
+}
+
 TEST_CASE("a patch inside a mesh replaces its middle without a gap", "[stitch]") {
   const StitchMethod method = any_method();
   // Seen shifted by part of a pixel, so that no two vertices have the same image.
