@@ -181,11 +181,11 @@ std::vector<Pixel> Attempt::lost_pixels() {
   return lost;
 }
 
-/// Where a hole is in the way the patch is withdrawn from it by this many pixels at first, and by
-/// so many times more each time; after the last one altogether.
+/// Where a hole is in the way the patch is withdrawn from it by this many pixels, from the sixth
+/// time on by twice as many each time; after the last one altogether.
 constexpr int kFirstWithdrawal = 2;
-constexpr int kWithdrawalGrowth = 3;
-constexpr int kWithdrawals = 5;
+constexpr int kEqualWithdrawals = 5;
+constexpr int kWithdrawals = 10;
 
 /// The part is cut out this much wider than the seam can be, pixels.
 constexpr int kPartMargin = 2;
@@ -214,8 +214,8 @@ StitchResult stitch(TriangleMesh mesh, const Scan& scan, const StitchOptions& op
       return {std::move(mesh), report};
     }
     if (withdrawals == kWithdrawals) break;
-    patch = withdraw_near(patch, lost, radius);
-    radius *= kWithdrawalGrowth;
+    patch = withdraw_locally(patch, lost, radius);
+    if (withdrawals >= kEqualWithdrawals) radius *= 2;
   }
   StitchReport report;
   report.withdrawn_faces = scan.patch.mesh.triangles.size();

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "core/base/grid.h"
+#include "core/raster/rasterizer.h"
 
 namespace rangezip {
 
@@ -43,16 +45,22 @@ class PlaceCounter {
   Grid<std::uint32_t> sums_;
 };
 
+/// The box around some pixels. @pre there are some
+std::pair<Pixel, Pixel> box_of(std::span<const Pixel> pixels) {
+  Pixel first = pixels.front();
+  Pixel last = first;
+  for (const Pixel p : pixels) {
+    first = {std::min(first.x, p.x), std::min(first.y, p.y)};
+    last = {std::max(last.x, p.x), std::max(last.y, p.y)};
+  }
+  return {first, last};
+}
+
 }  // namespace
 
 Patch withdraw_near(const Patch& patch, std::span<const Pixel> places, int radius) {
   if (patch.pixels.empty()) return patch;
-  Pixel first = patch.pixels.front();
-  Pixel last = first;
-  for (const Pixel p : patch.pixels) {
-    first = {std::min(first.x, p.x), std::min(first.y, p.y)};
-    last = {std::max(last.x, p.x), std::max(last.y, p.y)};
-  }
+  const auto [first, last] = box_of(patch.pixels);
   const PlaceCounter counter(places, {first.x - radius, first.y - radius},
                              {last.x + radius, last.y + radius});
 
@@ -78,6 +86,22 @@ Patch withdraw_near(const Patch& patch, std::span<const Pixel> places, int radiu
   for (Triangle& t : rest.mesh.triangles) {
     for (std::uint32_t& v : t)
       v = number[v];
+  }
+  return rest;
+}
+
+Patch withdraw_locally(const Patch& patch, std::span<const Pixel> places, int radius) {
+  if (patch.pixels.empty()) return patch;
+  const auto [first, last] = box_of(patch.pixels);
+  const PlaceCounter of_patch(patch.pixels, first, last);
+  const int farthest = 2 * kMaxRasterExtent;  // places farther than this can wait for others
+  Patch rest = patch;
+  std::vector<Pixel> left(places.begin(), places.end());
+  for (; radius < farthest && !left.empty(); radius *= 2) {
+    const auto far = std::stable_partition(
+        left.begin(), left.end(), [&](Pixel p) { return of_patch.has_place_near(p, radius); });
+    rest = withdraw_near(rest, {left.begin(), far}, radius);
+    left.erase(left.begin(), far);
   }
   return rest;
 }

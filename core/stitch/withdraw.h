@@ -11,4 +11,9 @@ namespace rangezip {
 /// @pre radius >= 0
 [[nodiscard]] Patch withdraw_near(const Patch& patch, std::span<const Pixel> places, int radius);
 
+/// The same, around each place with the least of `radius`, 2 `radius`, 4 `radius`, ... that reaches
+/// the patch: so it gives way where it has to and nowhere else.
+/// @pre radius >= 1
+[[nodiscard]] Patch withdraw_locally(const Patch& patch, std::span<const Pixel> places, int radius);
+
 }  // namespace rangezip
