@@ -124,48 +124,6 @@ class FanCleaner {
   std::vector<Pixel> disturbed_;
 };
 
-constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
-
-/// Numbers the used pixels row by row, then lists the faces cell by cell.
-Patch patch_from_cells(const RangeImage& image, GridCells cells) {
-  const Extent extent = image.extent();
-  Grid<std::uint32_t> vertex_at(extent, kNoVertex);
-  std::size_t faces = 0;
-  const auto for_each_triangle = [&](const auto& visit) {
-    for (int y = 0; y + 1 < extent.height; ++y) {
-      for (int x = 0; x + 1 < extent.width; ++x) {
-        const std::uint8_t bits = cells[{x, y}];
-        for (const std::uint8_t which : {kLowerTriangle, kUpperTriangle}) {
-          if ((bits & which) != 0) visit(grid_triangle({x, y}, bits, which));
-        }
-      }
-    }
-  };
-  for_each_triangle([&](const std::array<Pixel, 3>& corners) {
-    ++faces;
-    for (const Pixel p : corners)
-      vertex_at[p] = 0;
-  });
-
-  Patch patch;
-  for (int y = 0; y < extent.height; ++y) {
-    for (int x = 0; x < extent.width; ++x) {
-      const Pixel p{x, y};
-      if (vertex_at[p] == kNoVertex) continue;
-      vertex_at[p] = static_cast<std::uint32_t>(patch.pixels.size());
-      patch.pixels.push_back(p);
-      patch.mesh.positions.push_back(image.position(p));
-    }
-  }
-  patch.mesh.triangles.reserve(faces);
-  for_each_triangle([&](const std::array<Pixel, 3>& corners) {
-    patch.mesh.triangles.push_back(
-        {vertex_at[corners[0]], vertex_at[corners[1]], vertex_at[corners[2]]});
-  });
-  patch.cells = std::move(cells);
-  return patch;
-}
-
 /// Number of triangles in the piece that each vertex belongs to.
 std::vector<std::size_t> sizes_of_pieces(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> parent(mesh.positions.size());
@@ -219,6 +177,46 @@ void remove_small_pieces(Patch& patch, std::size_t min_triangles) {
 }
 
 }  // namespace
+
+Patch patch_from_cells(const RangeImage& image, GridCells cells) {
+  const Extent extent = image.extent();
+  constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
+  Grid<std::uint32_t> vertex_at(extent, kNoVertex);
+  std::size_t faces = 0;
+  const auto for_each_triangle = [&](const auto& visit) {
+    for (int y = 0; y + 1 < extent.height; ++y) {
+      for (int x = 0; x + 1 < extent.width; ++x) {
+        const std::uint8_t bits = cells[{x, y}];
+        for (const std::uint8_t which : {kLowerTriangle, kUpperTriangle}) {
+          if ((bits & which) != 0) visit(grid_triangle({x, y}, bits, which));
+        }
+      }
+    }
+  };
+  for_each_triangle([&](const std::array<Pixel, 3>& corners) {
+    ++faces;
+    for (const Pixel p : corners)
+      vertex_at[p] = 0;
+  });
+
+  Patch patch;
+  for (int y = 0; y < extent.height; ++y) {
+    for (int x = 0; x < extent.width; ++x) {
+      const Pixel p{x, y};
+      if (vertex_at[p] == kNoVertex) continue;
+      vertex_at[p] = static_cast<std::uint32_t>(patch.pixels.size());
+      patch.pixels.push_back(p);
+      patch.mesh.positions.push_back(image.position(p));
+    }
+  }
+  patch.mesh.triangles.reserve(faces);
+  for_each_triangle([&](const std::array<Pixel, 3>& corners) {
+    patch.mesh.triangles.push_back(
+        {vertex_at[corners[0]], vertex_at[corners[1]], vertex_at[corners[2]]});
+  });
+  patch.cells = std::move(cells);
+  return patch;
+}
 
 Patch triangulate(const RangeImage& image, const Mask& active, const TriangulateOptions& options) {
   GridCells cells = build_grid_cells(image, active, grid_cell_options(options));

@@ -31,6 +31,11 @@ struct TriangulateOptions {
   return {.max_edge = options.max_edge, .min_cosine = options.max_slope_cosine};
 }
 
+/// The triangles of the grid as a patch: vertices numbered row by row, faces cell by cell.
+/// O(pixels).
+/// @pre all corners have samples
+[[nodiscard]] Patch patch_from_cells(const RangeImage& image, GridCells cells);
+
 /// Joins active samples of neighbouring pixels to triangles: two a cell, along the diagonal of
 /// the smaller depth step, one where a corner is missing. The neighbourhood of the samples is that
 /// of the pixels, so no search is needed [Kobbelt, Botsch 2000, 2].

@@ -70,6 +70,20 @@ GridBox box_of_faces_in(const TriangleMesh& mesh, const ImagePlane& image, const
   return around;
 }
 
+void remove_gone_faces(TriangleMesh& whole, const MeshPart& part, const FaceChanges& changes) {
+  if (changes.gone.empty()) return;
+  std::size_t kept = part.face_in_whole[changes.gone.front()];
+  auto next = changes.gone.begin();
+  for (std::size_t f = kept; f < whole.triangles.size(); ++f) {
+    if (next != changes.gone.end() && part.face_in_whole[*next] == f) {
+      ++next;
+    } else {
+      whole.triangles[kept++] = whole.triangles[f];
+    }
+  }
+  whole.triangles.resize(kept);
+}
+
 }  // namespace
 
 MeshPart cut_out_part(const TriangleMesh& whole, const View& view, std::span<const Pixel> pixels,
@@ -134,18 +148,7 @@ void put_back(TriangleMesh& whole, const MeshPart& part, const TriangleMesh& cha
   }
   is_dropped.resize(whole.positions.size(), 0);
 
-  if (!changes.gone.empty()) {
-    std::size_t kept = part.face_in_whole[changes.gone.front()];
-    auto next = changes.gone.begin();
-    for (std::size_t f = kept; f < whole.triangles.size(); ++f) {
-      if (next != changes.gone.end() && part.face_in_whole[*next] == f) {
-        ++next;
-      } else {
-        whole.triangles[kept++] = whole.triangles[f];
-      }
-    }
-    whole.triangles.resize(kept);
-  }
+  remove_gone_faces(whole, part, changes);
   for (const std::uint32_t f : changes.made) {
     const Triangle& face = changed.triangles[f];
     whole.triangles.push_back({in_whole[face[0]], in_whole[face[1]], in_whole[face[2]]});

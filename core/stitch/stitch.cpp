@@ -184,29 +184,36 @@ std::vector<Pixel> Attempt::lost_pixels() {
 }
 
 /// The record by the faces of the whole mesh and the vertices of the whole patch.
-/// @param pixels of the vertices that are left of the patch, in the order of `all_pixels`
-StitchRecord record_of_whole(StitchRecord record, const MeshPart& part,
-                             std::span<const Pixel> pixels, std::span<const Pixel> all_pixels) {
-  std::vector<std::uint32_t> vertex_in_whole;
-  for (std::uint32_t v = 0; v < all_pixels.size() && vertex_in_whole.size() < pixels.size(); ++v) {
-    if (all_pixels[v] == pixels[vertex_in_whole.size()]) vertex_in_whole.push_back(v);
+/// @param pixels of the vertices that are left of the patch. Those that a decimated patch did not
+///     have, and segments from or to them, are left out
+StitchRecord record_of_whole(const StitchRecord& record, const MeshPart& part,
+                             std::span<const Pixel> pixels, const Patch& whole_patch) {
+  const std::vector<std::uint32_t> vertex_in_whole = numbers_in(whole_patch, pixels);
+  StitchRecord of_whole;
+  for (const auto& [vertex, face] : record.vertices) {
+    if (vertex_in_whole[vertex] == kNotInPatch) continue;
+    of_whole.vertices.push_back({vertex_in_whole[vertex], part.face_in_whole[face]});
   }
-  for (StitchRecord::Vertex& vertex : record.vertices) {
-    vertex.patch_vertex = vertex_in_whole[vertex.patch_vertex];
-    vertex.old_face = part.face_in_whole[vertex.old_face];
+  for (const auto& [from, to] : record.segments) {
+    const std::uint32_t a = vertex_in_whole[from], b = vertex_in_whole[to];
+    if (a != kNotInPatch && b != kNotInPatch) of_whole.segments.push_back({a, b});
   }
-  for (auto& segment : record.segments) {
-    for (std::uint32_t& v : segment)
-      v = vertex_in_whole[v];
-  }
-  return record;
+  return of_whole;
 }
 
-/// Where a hole is in the way the patch is withdrawn from it by this many pixels at first, and by
-/// so many times more each time; after the last one altogether.
+/// Triangles that are left of the grid, whatever size those of the patch have.
+std::size_t grid_triangle_count(const Patch& patch) {
+  std::size_t count = 0;
+  for (const std::uint8_t bits : patch.cells.pixels())
+    count += ((bits & kLowerTriangle) != 0 ? 1U : 0U) + ((bits & kUpperTriangle) != 0 ? 1U : 0U);
+  return count;
+}
+
+/// Where a hole is in the way the patch is withdrawn from it by this many pixels, from the sixth
+/// time on by twice as many each time; after the last one altogether.
 constexpr int kFirstWithdrawal = 2;
-constexpr int kWithdrawalGrowth = 3;
-constexpr int kWithdrawals = 5;
+constexpr int kEqualWithdrawals = 5;
+constexpr int kWithdrawals = 10;
 
 /// The part is cut out this much wider than the seam can be, pixels.
 constexpr int kPartMargin = 2;
@@ -229,18 +236,18 @@ StitchResult stitch(TriangleMesh mesh, const Scan& scan, const StitchOptions& op
     if (!attempt.is_manifold()) break;
     const std::vector<Pixel> lost = attempt.lost_pixels();
     StitchReport report = attempt.report();
-    report.withdrawn_faces = scan.patch.mesh.triangles.size() - patch.mesh.triangles.size();
+    report.withdrawn_faces = grid_triangle_count(scan.patch) - grid_triangle_count(patch);
     if (lost.empty()) {
       put_back(mesh, part, attempt.mesh(), attempt.changes());
       return {std::move(mesh), report,
-              record_of_whole(attempt.record(), part, patch.pixels, scan.patch.pixels)};
+              record_of_whole(attempt.record(), part, patch.pixels, scan.patch)};
     }
     if (withdrawals == kWithdrawals) break;
-    patch = withdraw_near(patch, lost, radius);
-    radius *= kWithdrawalGrowth;
+    patch = withdraw_locally(scan.image, patch, lost, radius);
+    if (withdrawals >= kEqualWithdrawals) radius *= 2;
   }
   StitchReport report;
-  report.withdrawn_faces = scan.patch.mesh.triangles.size();
+  report.withdrawn_faces = grid_triangle_count(scan.patch);
   return {std::move(mesh), report, {}};
 }
 

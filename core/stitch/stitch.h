@@ -64,8 +64,7 @@ struct StitchResult {
 /// - it has no self-intersection and no face without area (exact). A face that would cross another
 ///   is rolled back, those of the seam first, then those of the patch;
 /// - every pixel that showed the surface shows it (find_lost_pixels()): where a hole would appear
-///   the patch is withdrawn from it by 2 pixels, if that does not help by more and more, at last
-///   altogether;
+///   the patch is withdrawn from it by 2 pixels, as often as it takes, at last altogether;
 /// - faces whose image is nowhere near the patch are the same, bit by bit.
 ///
 /// clear_and_fill removes every front-facing old face that overlaps a patch cell within the band

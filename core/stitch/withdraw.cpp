@@ -1,11 +1,13 @@
 #include "core/stitch/withdraw.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
-#include <limits>
+#include <utility>
 #include <vector>
 
 #include "core/base/grid.h"
+#include "core/raster/rasterizer.h"
 
 namespace rangezip {
 
@@ -43,43 +45,83 @@ class PlaceCounter {
   Grid<std::uint32_t> sums_;
 };
 
-}  // namespace
-
-Patch withdraw_near(const Patch& patch, std::span<const Pixel> places, int radius) {
-  if (patch.pixels.empty()) return patch;
-  Pixel first = patch.pixels.front();
+/// The box around some pixels. @pre there are some
+std::pair<Pixel, Pixel> box_of(std::span<const Pixel> pixels) {
+  Pixel first = pixels.front();
   Pixel last = first;
-  for (const Pixel p : patch.pixels) {
+  for (const Pixel p : pixels) {
     first = {std::min(first.x, p.x), std::min(first.y, p.y)};
     last = {std::max(last.x, p.x), std::max(last.y, p.y)};
   }
+  return {first, last};
+}
+
+/// Takes the triangles near places out of the cells; false if there are none.
+bool clear_near(GridCells& cells, Pixel first, Pixel last, const PlaceCounter& places, int radius) {
+  bool any = false;
+  for (int y = first.y; y < last.y; ++y) {
+    for (Pixel cell{first.x, y}; cell.x < last.x; ++cell.x) {
+      for (const std::uint8_t which : {kLowerTriangle, kUpperTriangle}) {
+        if ((cells[cell] & which) == 0) continue;
+        const std::array<Pixel, 3> corners = grid_triangle(cell, cells[cell], which);
+        const bool goes = std::any_of(corners.begin(), corners.end(), [&](Pixel corner) {
+          return places.has_place_near(corner, radius);
+        });
+        if (!goes) continue;
+        cells[cell] = static_cast<std::uint8_t>(cells[cell] & ~which);
+        any = true;
+      }
+    }
+  }
+  return any;
+}
+
+}  // namespace
+
+Patch withdraw_near(const RangeImage& image, const Patch& patch, std::span<const Pixel> places,
+                    int radius) {
+  if (patch.pixels.empty()) return patch;
+  const auto [first, last] = box_of(patch.pixels);
   const PlaceCounter counter(places, {first.x - radius, first.y - radius},
                              {last.x + radius, last.y + radius});
+  GridCells cells = patch.cells;
+  if (!clear_near(cells, first, last, counter, radius)) return patch;
+  Patch rest = patch_from_cells(image, std::move(cells));
+  if (patch.mesh.sources.empty()) return rest;
+  for (const std::uint32_t v : numbers_in(patch, rest.pixels))
+    rest.mesh.sources.push_back(v == kNotInPatch ? VertexSource{} : patch.mesh.sources[v]);
+  return rest;
+}
 
-  constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> number(patch.pixels.size(), kUnused);
-  Patch rest;
-  for (const Triangle& t : patch.mesh.triangles) {
-    const bool goes = std::any_of(t.begin(), t.end(), [&](std::uint32_t v) {
-      return counter.has_place_near(patch.pixels[v], radius);
-    });
-    if (goes) continue;
-    rest.mesh.triangles.push_back(t);
-    for (const std::uint32_t v : t)
-      number[v] = 0;
-  }
-  for (std::size_t v = 0; v < number.size(); ++v) {
-    if (number[v] == kUnused) continue;
-    number[v] = static_cast<std::uint32_t>(rest.pixels.size());
-    rest.pixels.push_back(patch.pixels[v]);
-    rest.mesh.positions.push_back(patch.mesh.positions[v]);
-    if (!patch.mesh.sources.empty()) rest.mesh.sources.push_back(patch.mesh.sources[v]);
-  }
-  for (Triangle& t : rest.mesh.triangles) {
-    for (std::uint32_t& v : t)
-      v = number[v];
+Patch withdraw_locally(const RangeImage& image, const Patch& patch, std::span<const Pixel> places,
+                       int radius) {
+  if (patch.pixels.empty()) return patch;
+  const auto [first, last] = box_of(patch.pixels);
+  const PlaceCounter of_patch(patch.pixels, first, last);
+  const int farthest = 2 * kMaxRasterExtent;  // places farther than this can wait for others
+  Patch rest = patch;
+  std::vector<Pixel> left(places.begin(), places.end());
+  for (; radius < farthest && !left.empty(); radius *= 2) {
+    const auto far = std::stable_partition(
+        left.begin(), left.end(), [&](Pixel p) { return of_patch.has_place_near(p, radius); });
+    rest = withdraw_near(image, rest, {left.begin(), far}, radius);
+    left.erase(left.begin(), far);
   }
   return rest;
+}
+
+std::vector<std::uint32_t> numbers_in(const Patch& patch, std::span<const Pixel> pixels) {
+  const auto is_before = [](Pixel a, Pixel b) { return a.y != b.y ? a.y < b.y : a.x < b.x; };
+  std::vector<std::uint32_t> numbers;
+  numbers.reserve(pixels.size());
+  std::uint32_t v = 0;
+  for (const Pixel p : pixels) {
+    while (v < patch.pixels.size() && is_before(patch.pixels[v], p))
+      ++v;
+    const bool is_there = v < patch.pixels.size() && patch.pixels[v] == p;
+    numbers.push_back(is_there ? v : kNotInPatch);
+  }
+  return numbers;
 }
 
 }  // namespace rangezip

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "core/mesh/self_intersection.h"
+#include "core/patch/decimate.h"
 #include "core/stitch/crossing_faces.h"
 #include "core/stitch/face_changes.h"
 #include "core/stitch/lost_pixels.h"
@@ -174,7 +175,7 @@ TEST_CASE("a patch is withdrawn from places by the radius and no farther", "[sti
         return std::max(std::abs(p.x - q.x), std::abs(p.y - q.y)) <= radius;
       });
     };
-    const Patch rest = withdraw_near(patch, places, radius);
+    const Patch rest = withdraw_near(scan.image, patch, places, radius);
     const auto stays = [&](const Triangle& t) {
       return std::none_of(t.begin(), t.end(), [&](auto v) { return is_near(patch.pixels[v]); });
     };
@@ -185,6 +186,21 @@ TEST_CASE("a patch is withdrawn from places by the radius and no farther", "[sti
     CHECK(rest.mesh.sources.size() == rest.pixels.size());
     check_mesh(rest.mesh);
   }
+}
+
+TEST_CASE("what is left of a decimated patch has the full resolution, as that of the patch before",
+          "[stitch]") {
+  const Scan scan = hand_scan(plane(20.0), rectangle({10, 10}, {50, 50}));
+  const Patch large = decimate(scan.image, scan.patch, {});
+  REQUIRE(large.mesh.triangles.size() < scan.patch.mesh.triangles.size() / 4);
+  const std::vector<Pixel> places{{15, 16}, {45, 40}};
+  const Patch rest = withdraw_near(scan.image, large, places, 3);
+  const Patch expected = withdraw_near(scan.image, scan.patch, places, 3);
+  CHECK(rest.pixels == expected.pixels);
+  CHECK(rest.mesh.triangles == expected.mesh.triangles);
+  CHECK(rest.cells == expected.cells);
+  const std::vector<Pixel> far{{0, 0}};
+  CHECK(withdraw_near(scan.image, large, far, 3).mesh == large.mesh);
 }
 
 TEST_CASE("a part cut out and put back unchanged is the whole again", "[stitch]") {
