@@ -37,7 +37,7 @@ constexpr double kBendingRadius = 1.7;             // in h
 constexpr double kShortestGraded = 0.9;            // in h
 constexpr double kLongestGraded = 32.0;            // in h
 constexpr int kClosingRounds = 2;
-constexpr int kAligningRounds = 4;
+constexpr int kAligningRounds = 2;
 constexpr int kSizingRounds = 4;  // later ones keep the relative lengths
 constexpr std::size_t kPerBlock = 512;
 

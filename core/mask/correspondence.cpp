@@ -39,20 +39,22 @@ Grid<PrimitiveId> faces_in_band(Rasterizer& rasterizer, const RangeImage& image,
   return std::move(drawn.id);
 }
 
-/// The nearest of the faces reached by walks from what is seen in the pixel and the eight around
-/// it: one walk alone ends in a local minimum where the mesh is rough.
+/// Where a walk from the nearest of what is seen in the pixel and the eight around it ends: from
+/// the pixel alone it would end in a local minimum where the mesh is rough.
 NearestFace search_nearest_face(const Grid<PrimitiveId>& seen, Pixel p, const TriangleMesh& mesh,
                                 const EdgeMap& edges, const Vec3& position) {
-  NearestFace nearest = walk_to_nearest_face(mesh, edges, seen[p], position);
+  NearestFace nearest = measure_face(mesh, seen[p], position);
+  PrimitiveId last = seen[p];
   for (int k = 0; k < 9; ++k) {
     const Pixel q{p.x + k % 3 - 1, p.y + k / 3 - 1};
     if (!seen.extent().contains(q)) continue;
     const PrimitiveId start = seen[q];
-    if (start == kNoPrimitive || start == seen[p] || start == nearest.face) continue;
-    const NearestFace other = walk_to_nearest_face(mesh, edges, start, position);
+    if (start == kNoPrimitive || start == seen[p] || start == last) continue;
+    last = start;
+    const NearestFace other = measure_face(mesh, start, position);
     if (other.squared_distance < nearest.squared_distance) nearest = other;
   }
-  return nearest;
+  return walk_to_nearest_face(mesh, edges, nearest.face, position);
 }
 
 /// The local search of [Kobbelt, Botsch 2000, 4.3]: from what is seen to the face nearest to each

@@ -28,8 +28,8 @@ struct Correspondence {
 
 /// The face of `mesh` that corresponds to each sample [Kobbelt, Botsch 2000, 4.3].
 ///
-/// Both look at what is drawn in the pixel and the eight around it, and from each face there a walk
-/// over neighbours goes downhill in distance to the sample: the nearest face so found corresponds.
+/// Both look at what is drawn in the pixel and the eight around it, and from the nearest face there
+/// a walk over neighbours goes downhill in distance to the sample: where it ends corresponds.
 /// depth_band: the mesh is drawn under the image's view and every fragment outside the band around
 /// the range image is dropped, so the face is on the right sheet by construction. Front faces
 /// (Facing::front) and back faces are drawn apart.

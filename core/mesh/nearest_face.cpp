@@ -12,15 +12,10 @@ Vec3 closest_point(const TriangleMesh& mesh, std::uint32_t face, const Vec3& poi
                                    mesh.positions[t[2]]);
 }
 
-NearestFace measure(const TriangleMesh& mesh, std::uint32_t face, const Vec3& point) {
-  const Vec3 offset = closest_point(mesh, face, point) - point;
-  return {face, glm::dot(offset, offset)};
-}
-
 void keep_nearer(NearestFace& best, const TriangleMesh& mesh, std::uint32_t face,
                  const Vec3& point) {
   if (face == EdgeMap::kNone) return;
-  const NearestFace candidate = measure(mesh, face, point);
+  const NearestFace candidate = measure_face(mesh, face, point);
   if (candidate.squared_distance < best.squared_distance) best = candidate;
 }
 
@@ -80,9 +75,14 @@ EdgeMap edges_of(const TriangleMesh& mesh) {
   return edges;
 }
 
+NearestFace measure_face(const TriangleMesh& mesh, std::uint32_t face, const Vec3& point) {
+  const Vec3 offset = closest_point(mesh, face, point) - point;
+  return {face, glm::dot(offset, offset)};
+}
+
 NearestFace walk_to_nearest_face(const TriangleMesh& mesh, const EdgeMap& edges,
                                  std::uint32_t start, const Vec3& point) {
-  NearestFace here = measure(mesh, start, point);
+  NearestFace here = measure_face(mesh, start, point);
   for (;;) {
     const NearestFace next = step(mesh, edges, here, point);
     if (next == here) return here;

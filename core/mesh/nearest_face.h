@@ -18,6 +18,10 @@ struct NearestFace {
   friend bool operator==(const NearestFace&, const NearestFace&) = default;
 };
 
+/// How far a face is. @pre it is one of the mesh
+[[nodiscard]] NearestFace measure_face(const TriangleMesh& mesh, std::uint32_t face,
+                                       const Vec3& point);
+
 /// The face reached from `start` by going downhill in distance to `point`: to the nearest of the
 /// faces across the three edges or, where none is nearer, to the nearest one around the corner that
 /// is nearest to the point. Ends in a local minimum: the local search of

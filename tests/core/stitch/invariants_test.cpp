@@ -192,7 +192,7 @@ TEST_CASE("what is left of a decimated patch has the full resolution, as that of
           "[stitch]") {
   const Scan scan = hand_scan(plane(20.0), rectangle({10, 10}, {50, 50}));
   const Patch large = decimate(scan.image, scan.patch, {});
-  REQUIRE(large.mesh.triangles.size() < scan.patch.mesh.triangles.size() / 4);
+  REQUIRE(large.mesh.triangles.size() < scan.patch.mesh.triangles.size() / 3);
   const std::vector<Pixel> places{{15, 16}, {45, 40}};
   const Patch rest = withdraw_near(scan.image, large, places, 3);
   const Patch expected = withdraw_near(scan.image, scan.patch, places, 3);
