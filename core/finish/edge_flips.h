@@ -20,7 +20,7 @@ std::size_t flip_for_angles(CornerTable& table, const std::vector<Vec3>& positio
 std::size_t flip_for_valence(CornerTable& table, const std::vector<Vec3>& positions);
 
 /// Turns edges so that the two faces follow the surface's normals, as long as no angle falls under
-/// 29 degrees: triangles then lie along the lines of least bending [Dyn, Levin, Rippa 1990].
+/// 30 degrees: triangles then lie along the lines of least bending [Dyn, Levin, Rippa 1990].
 /// @param normals the surface's, one a vertex; edges with a zero normal at a corner stay
 std::size_t flip_for_normals(CornerTable& table, const std::vector<Vec3>& positions,
                              const std::vector<Vec3>& normals);

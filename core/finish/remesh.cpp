@@ -31,11 +31,11 @@ constexpr int kRoundsAfterCoarse = 5;  // that make the wanted size again
 constexpr double kFirstScale = 1.6;    // coarser triangles at first leave nothing of the pixel grid
 constexpr double kMostScaling = 1.1;   // of the wanted length, in a round
 constexpr double kEvenLength = 0.99;   // of the edge of as many equilateral triangles
-constexpr std::array kProjections{1.5, 1.5, 1.0};  // before the first round, with windows of
-                                                   // so many radii: the stitched mesh is rough
-constexpr double kBendingRadius = 1.7;             // in h
-constexpr double kShortestGraded = 0.9;            // in h
-constexpr double kLongestGraded = 32.0;            // in h
+constexpr std::array kProjections{1.5, 1.0};  // before the first round, with windows of
+                                              // so many radii: the stitched mesh is rough
+constexpr double kBendingRadius = 1.7;        // in h
+constexpr double kShortestGraded = 0.9;       // in h
+constexpr double kLongestGraded = 32.0;       // in h
 constexpr int kClosingRounds = 2;
 constexpr int kAligningRounds = 2;
 constexpr int kSizingRounds = 4;  // later ones keep the relative lengths

@@ -12,7 +12,8 @@ constexpr std::size_t kPlaneTerms = 3;
 constexpr int kMinQuadricPoints = 12;
 constexpr int kMinPlanePoints = 6;
 constexpr double kMeanWeight = 4.0 / 7.0;  // of squared weights per weight, over a disk
-constexpr double kDoubt = 2.0;             // of what noise makes: more flattens what bends a little
+constexpr double kAllBelieved = 0.99;
+constexpr double kDoubt = 2.0;      // of what noise makes: more flattens what bends a little
 constexpr double kMinPivot = 1e-4;  // of the diagonal: below, the points do not tell the term
 
 using Terms = std::array<double, kTerms>;
@@ -148,6 +149,7 @@ double believed_bending(const Solution& solution, double noise) {
 void shrink_bending(Solution& solution, const NormalEquations& equations, double noise) {
   if (solution.size != kTerms || !(noise > 0.0)) return;
   const double share = believed_bending(solution, noise);
+  if (share > kAllBelieved) return;
   Terms right{};
   std::copy_n(equations.right.begin(), kPlaneTerms, right.begin());
   const Terms plane = solve(solution.factor, right, kPlaneTerms);

@@ -1,7 +1,9 @@
 #include "core/mask/correspondence.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -14,6 +16,8 @@
 namespace rangezip {
 
 namespace {
+
+constexpr NearestFace kNothing{kNoPrimitive, std::numeric_limits<double>::infinity()};
 
 /// The band of `half_width` pixel sides, stretched on slopes, around the samples.
 DepthBand band_around(const RangeImage& image, const SlopeImage& slopes, double half_width) {
@@ -39,22 +43,46 @@ Grid<PrimitiveId> faces_in_band(Rasterizer& rasterizer, const RangeImage& image,
   return std::move(drawn.id);
 }
 
-/// Where a walk from the nearest of what is seen in the pixel and the eight around it ends: from
-/// the pixel alone it would end in a local minimum where the mesh is rough.
+/// Faces to begin a walk at, the nearest first.
+class NearestStarts {
+ public:
+  void add(const NearestFace& start) {
+    for (const NearestFace& known : starts_) {
+      if (known.face == start.face) return;
+    }
+    if (!(start.squared_distance < starts_.back().squared_distance)) return;
+    std::size_t k = starts_.size() - 1;
+    for (; k > 0 && start.squared_distance < starts_[k - 1].squared_distance; --k)
+      starts_[k] = starts_[k - 1];
+    starts_[k] = start;
+  }
+
+  [[nodiscard]] auto begin() const { return starts_.begin(); }
+  [[nodiscard]] auto end() const { return starts_.end(); }
+
+ private:
+  std::array<NearestFace, 3> starts_{kNothing, kNothing, kNothing};
+};
+
+/// The nearest of the faces reached by walks from the three nearest of what is seen in the pixel
+/// and the eight around it: one walk alone ends in a local minimum where the mesh is rough.
 NearestFace search_nearest_face(const Grid<PrimitiveId>& seen, Pixel p, const TriangleMesh& mesh,
                                 const EdgeMap& edges, const Vec3& position) {
-  NearestFace nearest = measure_face(mesh, seen[p], position);
-  PrimitiveId last = seen[p];
+  NearestStarts starts;
+  PrimitiveId last = kNoPrimitive;
   for (int k = 0; k < 9; ++k) {
     const Pixel q{p.x + k % 3 - 1, p.y + k / 3 - 1};
-    if (!seen.extent().contains(q)) continue;
-    const PrimitiveId start = seen[q];
-    if (start == kNoPrimitive || start == seen[p] || start == last) continue;
-    last = start;
-    const NearestFace other = measure_face(mesh, start, position);
-    if (other.squared_distance < nearest.squared_distance) nearest = other;
+    if (!seen.extent().contains(q) || seen[q] == kNoPrimitive || seen[q] == last) continue;
+    last = seen[q];
+    starts.add(measure_face(mesh, last, position));
   }
-  return walk_to_nearest_face(mesh, edges, nearest.face, position);
+  NearestFace nearest = kNothing;
+  for (const NearestFace& start : starts) {
+    if (start.face == kNoPrimitive || start.face == nearest.face) continue;
+    const NearestFace found = walk_to_nearest_face(mesh, edges, start.face, position);
+    if (found.squared_distance < nearest.squared_distance) nearest = found;
+  }
+  return nearest;
 }
 
 /// The local search of [Kobbelt, Botsch 2000, 4.3]: from what is seen to the face nearest to each

@@ -28,14 +28,14 @@ struct Correspondence {
 
 /// The face of `mesh` that corresponds to each sample [Kobbelt, Botsch 2000, 4.3].
 ///
-/// Both look at what is drawn in the pixel and the eight around it, and from the nearest face there
-/// a walk over neighbours goes downhill in distance to the sample: where it ends corresponds.
-/// depth_band: the mesh is drawn under the image's view and every fragment outside the band around
-/// the range image is dropped, so the face is on the right sheet by construction. Front faces
-/// (Facing::front) and back faces are drawn apart.
-/// id_buffer: the paper's way; the mesh is drawn as it is. A sample may then see a face of another
-/// sheet far behind it; that is no correspondence.
-/// Cost: two passes of the rasterizer over the mesh or one, O(faces + pixels).
+/// Both look at what is drawn in the pixel and the eight around it, and from the three nearest
+/// faces there walks over neighbours go downhill in distance to the sample: the nearest face so
+/// found corresponds. depth_band: the mesh is drawn under the image's view and every fragment
+/// outside the band around the range image is dropped, so the face is on the right sheet by
+/// construction. Front faces (Facing::front) and back faces are drawn apart. id_buffer: the paper's
+/// way; the mesh is drawn as it is. A sample may then see a face of another sheet far behind it;
+/// that is no correspondence. Cost: two passes of the rasterizer over the mesh or one, O(faces +
+/// pixels).
 /// @param any_face only whether there is a face matters, not which: depth_band then does not search
 /// @throws InvalidArgument if the extents differ or a band is negative or not finite.
 [[nodiscard]] Correspondence find_correspondence(Rasterizer& rasterizer, const RangeImage& image,
