@@ -11,7 +11,7 @@ namespace rangezip {
 namespace {
 
 /// An open component with fewer faces than this part of the largest is a shred.
-constexpr std::size_t kShredShare = 500;
+constexpr std::size_t kShredShare = 200;
 
 bool repeats_corner(const Triangle& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];

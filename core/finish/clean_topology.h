@@ -18,7 +18,7 @@ struct DroppedComponents {
 };
 
 /// Drops the components (joined over shared edges) with fewer than `min_faces` faces, and shreds:
-/// open ones with less than a five-hundredth of the faces of the largest component, which are
+/// open ones with less than a two-hundredth of the faces of the largest component, which are
 /// pieces of walls in pockets that no view connects. The largest one (the earliest of equals)
 /// always stays. With 0 all stay. Positions stay.
 /// @pre oriented and manifold

@@ -12,7 +12,7 @@ namespace rangezip {
 struct ExtendBorderOptions {
   double pixel_size = 0.0;        ///< h, model units; positive
   std::size_t min_component = 0;  ///< pieces with fewer faces that cutting leaves are dropped
-  int max_rounds = 100;           ///< of one step at each border edge that needs one, at most
+  int max_rounds = 300;           ///< of one step at each border edge that needs one, at most
 };
 
 struct ExtendBorderReport {

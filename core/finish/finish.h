@@ -20,7 +20,7 @@ struct FinishOptions {
   double max_hole_perimeter = 60.0;  ///< in h: larger holes without points in them stay
   double narrow_width = 3.0;         ///< in h: cracks up to this are closed whatever their length
   int rounds = 5;                    ///< of {cut self-intersections, bridge, fill}, at most
-  int relaxations = 8;               ///< of {split, collapse, flip, relax, project}
+  int relaxations = 7;               ///< of {split, collapse, flip, relax, project}
   std::size_t triangles = 0;    ///< target of `full`, met within a few percent; 0: as many as come
   double flat_tolerance = 0.0;  ///< in h: `full` lets triangles grow where they stay within this of
                                 ///< the surface; 0: they are of about one size

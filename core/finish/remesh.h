@@ -16,7 +16,7 @@ struct RemeshOptions {
                               ///< there are
   double tolerance = 0.0;     ///< model units: triangles grow where they stay within this of the
                               ///< surface; 0: they are of about one size
-  int rounds = 8;             ///< fewer than three keep the number of triangles
+  int rounds = 7;             ///< fewer than three keep the number of triangles
 };
 
 struct RemeshReport {

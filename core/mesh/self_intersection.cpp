@@ -201,6 +201,16 @@ CellLists sort_into_cells(const Triangles& triangles, const CellGrid& grid,
   return lists;
 }
 
+// What is asked about a triangle.
+constexpr std::uint8_t kSame = 0;     ///< only whether a changed one meets it
+constexpr std::uint8_t kChanged = 1;  ///< whether any meets it
+constexpr std::uint8_t kApart = 2;    ///< whether any meets it that is not apart as well
+
+/// @param changed empty: all are
+bool is_asked(std::span<const std::uint8_t> changed, std::uint32_t i, std::uint32_t j) {
+  return changed.empty() || changed[i] != changed[j] || changed[i] == kChanged;
+}
+
 /// Pairs of one cell; a pair that shares several cells is compared in the one that holds the
 /// lower corner of their common box.
 void collect_cell(const Triangles& triangles, const CellGrid& grid,
@@ -212,8 +222,7 @@ void collect_cell(const Triangles& triangles, const CellGrid& grid,
     for (std::size_t m = 0; m < k; ++m) {
       const std::uint32_t i = entries[m];  // < j: entries rise within a cell
       const Box& first = triangles.box(i);
-      if (!boxes_meet(first, second)) continue;
-      if (!changed.empty() && changed[i] == 0 && changed[j] == 0) continue;
+      if (!is_asked(changed, i, j) || !boxes_meet(first, second)) continue;
       if (grid.index_of(glm::max(first.lower, second.lower)) != cell) continue;
       if (triangles.meet(i, j)) pairs.emplace_back(i, j);
     }
@@ -246,7 +255,7 @@ void collect_all_of(const Triangles& triangles, std::uint32_t i,
   for (std::uint32_t j = 0; j < triangles.size(); ++j) {
     if (j == i || triangles.is_degenerate_at(j) || (is_large[j] != 0 && j < i)) continue;
     if (!boxes_meet(triangles.box(i), triangles.box(j))) continue;
-    if (!changed.empty() && changed[i] == 0 && changed[j] == 0) continue;
+    if (!is_asked(changed, i, j)) continue;
     if (triangles.meet(i, j)) pairs.emplace_back(std::min(i, j), std::max(i, j));
   }
 }
@@ -285,7 +294,7 @@ std::vector<std::uint32_t> around(const TriangleMesh& mesh,
   return numbers;
 }
 
-/// `changed` flags triangles by rank, or is empty: all.
+/// `changed` says of triangles by rank what is asked, or is empty: all.
 std::vector<Pair> find_pairs(const Triangles& triangles, std::span<const std::uint8_t> changed) {
   std::vector<Pair> pairs;
   if (triangles.size() == 0) return pairs;
@@ -295,7 +304,7 @@ std::vector<Pair> find_pairs(const Triangles& triangles, std::span<const std::ui
   if (!changed.empty()) {
     wanted.assign(grid.cell_count(), 0);
     for (std::size_t i = 0; i < changed.size(); ++i) {
-      if (changed[i] == 0) continue;
+      if (changed[i] == kSame) continue;
       grid.for_each_cell(grid.range_of(triangles.box(i)), [&](std::size_t c) { wanted[c] = 1; });
     }
   }
@@ -303,7 +312,7 @@ std::vector<Pair> find_pairs(const Triangles& triangles, std::span<const std::ui
   collect_cells(triangles, grid, lists, changed, pairs);
   collect_large(triangles, lists.large, changed, pairs);
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-    const bool asked = changed.empty() || changed[i] != 0;
+    const bool asked = changed.empty() || changed[i] != kSame;
     if (asked && triangles.is_degenerate_at(i)) pairs.emplace_back(i, i);
   }
   for (auto& [first, second] : pairs) {
@@ -321,12 +330,15 @@ std::vector<Pair> self_intersections(const TriangleMesh& mesh) {
 }
 
 std::vector<Pair> self_intersections(const TriangleMesh& mesh,
-                                     std::span<const std::uint32_t> changed) {
+                                     std::span<const std::uint32_t> changed,
+                                     std::span<const std::uint32_t> apart) {
   if (changed.empty()) return {};
   const Triangles triangles(mesh, around(mesh, changed));
-  std::vector<std::uint8_t> is_changed(mesh.triangles.size(), 0);
+  std::vector<std::uint8_t> is_changed(mesh.triangles.size(), kSame);
   for (const std::uint32_t i : changed)
-    is_changed[i] = 1;
+    is_changed[i] = kChanged;
+  for (const std::uint32_t i : apart)
+    is_changed[i] = kApart;
   std::vector<std::uint8_t> flags(triangles.size());
   for (std::size_t rank = 0; rank < flags.size(); ++rank)
     flags[rank] = is_changed[triangles.number(rank)];

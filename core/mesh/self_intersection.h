@@ -20,7 +20,11 @@ namespace rangezip {
 
 /// The same, only pairs with at least one triangle of `changed` (indices, any order). But for one
 /// look at every triangle, the cost is that of the triangles in the box around the changed ones.
+/// @param apart those of the changed ones that are known not to meet each other, as the triangles
+/// of
+///     one range image; they are compared with all others
 [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(
-    const TriangleMesh& mesh, std::span<const std::uint32_t> changed);
+    const TriangleMesh& mesh, std::span<const std::uint32_t> changed,
+    std::span<const std::uint32_t> apart = {});
 
 }  // namespace rangezip

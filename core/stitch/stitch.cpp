@@ -72,6 +72,8 @@ class Attempt {
  private:
   void clean();
   [[nodiscard]] std::vector<FaceOrigin> origins_of(std::span<const std::uint32_t> made) const;
+  [[nodiscard]] std::vector<std::uint32_t> faces_as_sampled(
+      std::span<const FaceOrigin> origins) const;
   void remove(std::span<const std::uint32_t> faces, std::span<const FaceOrigin> origins);
 
   const MeshPart& part_;
@@ -121,6 +123,23 @@ std::vector<FaceOrigin> Attempt::origins_of(std::span<const std::uint32_t> made)
   return origins;
 }
 
+/// The faces of the patch that are as its scan saw them: so they lie side by side in the image.
+std::vector<std::uint32_t> Attempt::faces_as_sampled(std::span<const FaceOrigin> origins) const {
+  std::vector<std::uint8_t> is_sample(joint_.mesh.positions.size(), 0);
+  for (std::size_t v = 0; v < joint_.vertex_of_patch.size(); ++v) {
+    const std::uint32_t in_joint = joint_.vertex_of_patch[v];
+    if (joint_.mesh.positions[in_joint] == scan_.patch.mesh.positions[v]) is_sample[in_joint] = 1;
+  }
+  std::vector<std::uint32_t> faces;
+  for (const std::uint32_t f : changes_.made) {
+    const Triangle& face = joint_.mesh.triangles[f];
+    if (origins[f] == FaceOrigin::patch &&
+        (is_sample[face[0]] & is_sample[face[1]] & is_sample[face[2]]) != 0)
+      faces.push_back(f);
+  }
+  return faces;
+}
+
 void Attempt::remove(std::span<const std::uint32_t> faces, std::span<const FaceOrigin> origins) {
   joint_.touched.assign(joint_.mesh.positions.size(), 0);
   std::vector<std::uint8_t> is_removed(joint_.mesh.triangles.size(), 0);
@@ -143,9 +162,10 @@ void Attempt::remove(std::span<const std::uint32_t> faces, std::span<const FaceO
 void Attempt::roll_back_crossings() {
   for (bool has_moved = true; has_moved;) {
     changes_ = find_face_changes(part_.mesh, joint_.mesh);
-    const std::vector<FacePair> pairs = self_intersections(joint_.mesh, changes_.made);
-    if (pairs.empty()) return;
     const std::vector<FaceOrigin> origins = origins_of(changes_.made);
+    const std::vector<FacePair> pairs =
+        self_intersections(joint_.mesh, changes_.made, faces_as_sampled(origins));
+    if (pairs.empty()) return;
     remove(choose_crossing_faces(pairs, origins), origins);
     const std::size_t split = report_.split_vertices;
     clean();

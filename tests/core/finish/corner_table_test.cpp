@@ -141,8 +141,8 @@ TEST_CASE("components are numbered in order of their first face") {
 }
 
 TEST_CASE(
-    "an open piece of less than a five-hundredth of the mesh is a shred, a closed one is not") {
-  const TriangleMesh large = testing::sphere(24);  // 6912 faces: shreds have up to 13
+    "an open piece of less than a two-hundredth of the mesh is a shred, a closed one is not") {
+  const TriangleMesh large = testing::sphere(24);  // 6912 faces: shreds have up to 34
   const bool is_open = GENERATE(false, true);
   CAPTURE(is_open);
   TriangleMesh mesh = large;

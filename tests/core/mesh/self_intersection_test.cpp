@@ -143,6 +143,20 @@ TEST_CASE("only pairs with a changed triangle are reported when asked so") {
   REQUIRE(self_intersections(mesh, std::vector<std::uint32_t>{}).empty());
 }
 
+TEST_CASE("triangles that are known to be apart are compared with all others only") {
+  const TriangleMesh mesh = soup(6, 2000, 0.05);
+  std::vector<std::uint32_t> changed(1000), apart(500);
+  std::iota(changed.begin(), changed.end(), 0U);
+  std::iota(apart.begin(), apart.end(), 0U);
+  Pairs expected;
+  for (const auto& [i, j] : self_intersections(mesh)) {
+    if (i < 1000 && j >= 500) expected.emplace_back(i, j);
+  }
+  REQUIRE(expected.size() > 10);
+  REQUIRE(expected.size() < self_intersections(mesh, changed).size());
+  REQUIRE(self_intersections(mesh, changed, apart) == expected);
+}
+
 TEST_CASE("the verdict does not depend on the number of threads") {
   const TriangleMesh mesh = soup(6, 4000, 0.05);
   Pairs one, four;
