@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace rangezip {
 namespace {
@@ -20,6 +22,9 @@ constexpr double kLeadsInto = 0.25;
 /// second figure: short ones are too ragged to tell.
 constexpr double kFoldsBack = -0.3;
 constexpr double kMinOutline = 30.0;
+/// Area over squared perimeter, 1 for a circle: of a loop below, a crack or a ribbon, only a fill
+/// tells whether it folds back.
+constexpr double kSlit = 0.15;
 /// A long hole counts as large if it is also wider than this share of the largest perimeter; a
 /// round one is wider than 0.3 of its perimeter.
 constexpr double kLargeWidth = 0.25;
@@ -43,6 +48,12 @@ struct LoopGeometry {
   Vec3 beside{0.0};  ///< mean unit normal of the faces along the loop
 };
 
+Vec3 unit_normal(const std::vector<Vec3>& positions, const Triangle& t) {
+  const Vec3 area = area_vector(positions[t[0]], positions[t[1]], positions[t[2]]);
+  const double length = glm::length(area);
+  return length > 0.0 ? area / length : Vec3{0.0};
+}
+
 LoopGeometry geometry_of(const std::vector<Vec3>& positions, const CornerTable& table,
                          const BoundaryLoop& loop) {
   LoopGeometry geometry;
@@ -55,31 +66,49 @@ LoopGeometry geometry_of(const std::vector<Vec3>& positions, const CornerTable& 
     const double side = glm::length(q - p);
     geometry.perimeter += side;
     geometry.across += 0.5 * area_vector(geometry.points[0], p, q);
-    const Triangle t = table.triangle(loop.corners[i] / 3);
-    const Vec3 area = area_vector(positions[t[0]], positions[t[1]], positions[t[2]]);
-    const double length = glm::length(area);
-    if (length > 0.0) geometry.beside += area * (side / length);
+    geometry.beside += side * unit_normal(positions, table.triangle(loop.corners[i] / 3));
   }
   geometry.beside /= geometry.perimeter;
   return geometry;
 }
 
+/// Area over squared perimeter, 1 for a circle.
+double roundness_of(const LoopGeometry& loop) {
+  constexpr double kFourPi = 12.566370614359172954;
+  return kFourPi * glm::length(loop.across) / (loop.perimeter * loop.perimeter);
+}
+
+/// Mean cosine between the faces on both sides of the loop: 1 where a fill continues the surface,
+/// -1 where it folds back.
+double continuation_of(const std::vector<Vec3>& positions, const CornerTable& table,
+                       const BoundaryLoop& loop) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Vec3> beside;
+  for (const std::uint32_t c : loop.corners)
+    beside[{table.head(c), table.vertex(c)}] = unit_normal(positions, table.triangle(c / 3));
+  double sum = 0.0;
+  for (const Triangle& t : fill_loop(positions, table, loop, FillShape::coarse, 0.0).triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto found = beside.find({t[k], t[(k + 1) % 3]});
+      if (found != beside.end()) sum += glm::dot(found->second, unit_normal(positions, t));
+    }
+  }
+  return sum / static_cast<double>(loop.corners.size());
+}
+
 /// The outline of a sheet: a fill would fold back over the sheet, and every point of that would
 /// look as if it were evidence for the fill.
-bool is_outline(const LoopGeometry& loop, double pixel_size) {
-  return loop.perimeter > kMinOutline * pixel_size &&
-         glm::dot(loop.across, loop.beside) < kFoldsBack * glm::length(loop.across);
+bool is_outline(const LoopGeometry& geometry, const std::vector<Vec3>& positions,
+                const CornerTable& table, const BoundaryLoop& loop, double pixel_size) {
+  if (geometry.perimeter <= kMinOutline * pixel_size) return false;
+  if (roundness_of(geometry) < kSlit) return continuation_of(positions, table, loop) < 0.0;
+  return glm::dot(geometry.across, geometry.beside) < kFoldsBack * glm::length(geometry.across);
 }
 
 /// A round loop at which the surface ends.
 bool is_rim(const LoopGeometry& loop, bool is_zipped, double pixel_size) {
-  constexpr double kFourPi = 12.566370614359172954;
-  const double area = glm::length(loop.across);
-  const double leads_into = glm::dot(loop.across, loop.beside);
   if (loop.perimeter < kMinRim * pixel_size) return false;
-  const double round = is_zipped ? kRoundOnceZipped : kRound;
-  if (area * kFourPi < round * loop.perimeter * loop.perimeter) return false;
-  return leads_into < kLeadsInto * area;
+  if (roundness_of(loop) < (is_zipped ? kRoundOnceZipped : kRound)) return false;
+  return glm::dot(loop.across, loop.beside) < kLeadsInto * glm::length(loop.across);
 }
 
 /// What the new points of a fill tell about a hole.
@@ -124,7 +153,7 @@ std::optional<FillShape> choose_fill(const std::vector<Vec3>& positions, const C
   if (loop.corners.size() > kMaxEdges) return std::nullopt;
   const LoopGeometry geometry = geometry_of(positions, table, loop);
   if (geometry.perimeter <= kSmallPerimeter * h) return FillShape::smooth;
-  if (is_outline(geometry, h)) return std::nullopt;
+  if (is_outline(geometry, positions, table, loop, h)) return std::nullopt;
   const HoleFill fill = fill_loop(positions, table, loop, FillShape::smooth, h);
   const Inside inside = look_inside(geometry, fill, cloud, h);
   if (inside.has_points) return FillShape::smooth;
