@@ -1,8 +1,12 @@
 #include "core/stitch/mesh_part.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
+#include <optional>
+#include <utility>
 
+#include "core/base/grid.h"
 #include "core/base/parallel.h"
 #include "core/stitch/image_plane.h"
 
@@ -22,51 +26,118 @@ struct GridBox {
     lower = {std::min(lower.x, p.x), std::min(lower.y, p.y)};
     upper = {std::max(upper.x, p.x), std::max(upper.y, p.y)};
   }
-  void add(const GridBox& box) {
-    add(box.lower);
-    add(box.upper);
-  }
 };
 
-GridBox box_around(std::span<const Pixel> pixels, int margin) {
+GridBox box_around(Pixel p, int margin) {
   GridBox box;
-  for (const Pixel p : pixels) {
-    box.add(grid_point({p.x - margin, p.y - margin}));
-    box.add(grid_point({p.x + margin, p.y + margin}));
+  box.add(grid_point({p.x - margin, p.y - margin}));
+  box.add(grid_point({p.x + margin, p.y + margin}));
+  return box;
+}
+
+/// Marked places of the image, in tiles: any box is marked or asked for in constant time. What lies
+/// outside of the image counts to the nearest tile.
+class TileMask {
+ public:
+  explicit TileMask(Extent image)
+      : tiles_{image.width / kTile + 1, image.height / kTile + 1},
+        sums_({tiles_.width + 1, tiles_.height + 1}, 0) {}
+
+  /// @pre close() has not been called
+  void mark(const GridBox& box) {
+    const Pixel first = tile_of(box.lower), last = tile_of(box.upper);
+    sums_[first] += 1;
+    sums_[{last.x + 1, first.y}] -= 1;
+    sums_[{first.x, last.y + 1}] -= 1;
+    sums_[{last.x + 1, last.y + 1}] += 1;
+  }
+
+  /// Turns what mark() has noted into the number of marked tiles below and to the left of each.
+  void close() {
+    sum_up();
+    Grid<std::int32_t> is_marked(sums_.extent(), 0);
+    for (int y = 0; y < tiles_.height; ++y) {
+      for (int x = 0; x < tiles_.width; ++x)
+        is_marked[{x + 1, y + 1}] = sums_[{x, y}] > 0 ? 1 : 0;
+    }
+    sums_ = std::move(is_marked);
+    sum_up();
+  }
+
+  /// @pre close() has been called
+  [[nodiscard]] bool meets(const GridBox& box) const {
+    const Pixel first = tile_of(box.lower), last = tile_of(box.upper);
+    return sums_[{last.x + 1, last.y + 1}] - sums_[{first.x, last.y + 1}] -
+               sums_[{last.x + 1, first.y}] + sums_[first] >
+           0;
+  }
+
+ private:
+  static constexpr int kTile = 8;  ///< pixels
+
+  [[nodiscard]] Pixel tile_of(const GridPoint& p) const {
+    return {
+        static_cast<int>(std::clamp<std::int64_t>((p.x >> kGridBits) / kTile, 0, tiles_.width - 1)),
+        static_cast<int>(
+            std::clamp<std::int64_t>((p.y >> kGridBits) / kTile, 0, tiles_.height - 1))};
+  }
+
+  /// Makes of each value the sum of those below and to the left.
+  void sum_up() {
+    for (int y = 0; y <= tiles_.height; ++y) {
+      for (int x = 0; x <= tiles_.width; ++x) {
+        if (x > 0) sums_[{x, y}] += sums_[{x - 1, y}];
+        if (y > 0) sums_[{x, y}] += sums_[{x, y - 1}];
+        if (x > 0 && y > 0) sums_[{x, y}] -= sums_[{x - 1, y - 1}];
+      }
+    }
+  }
+
+  Extent tiles_;
+  Grid<std::int32_t> sums_;
+};
+
+/// The image of a face; none if a corner has none, which may be anywhere.
+std::optional<GridBox> box_of(const Triangle& face, const ImagePlane& image) {
+  GridBox box;
+  for (const std::uint32_t v : face) {
+    if (!image.has_image(v)) return std::nullopt;
+    box.add(image.points[v]);
   }
   return box;
 }
 
-/// On which outer sides of the box a vertex lies: a face misses the box if its corners share one.
-/// None for a vertex without image, which may be anywhere.
-std::vector<std::uint8_t> sides_of(const ImagePlane& image, const GridBox& box) {
-  std::vector<std::uint8_t> sides(image.points.size());
-  parallel_for(sides.size(), kItemsPerBlock, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) {
-      const GridPoint& p = image.points[v];
-      const unsigned code = (p.x < box.lower.x ? 1U : 0U) | (p.x > box.upper.x ? 2U : 0U) |
-                            (p.y < box.lower.y ? 4U : 0U) | (p.y > box.upper.y ? 8U : 0U);
-      sides[v] = image.has_image(static_cast<std::uint32_t>(v)) ? static_cast<std::uint8_t>(code)
-                                                                : std::uint8_t{0};
+/// Flags of the faces that meet the mask, or may.
+std::vector<std::uint8_t> faces_that_meet(const TileMask& mask, const TriangleMesh& mesh,
+                                          const ImagePlane& image) {
+  std::vector<std::uint8_t> meets(mesh.triangles.size());
+  parallel_for(meets.size(), kItemsPerBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      const std::optional<GridBox> box = box_of(mesh.triangles[f], image);
+      meets[f] = !box || mask.meets(*box) ? 1 : 0;
     }
   });
-  return sides;
+  return meets;
 }
 
-bool meets_box(const Triangle& face, const std::vector<std::uint8_t>& sides) {
-  return (sides[face[0]] & sides[face[1]] & sides[face[2]]) == 0;
+TileMask mask_around(std::span<const Pixel> pixels, int margin, Extent image) {
+  TileMask mask(image);
+  for (const Pixel p : pixels)
+    mask.mark(box_around(p, margin));
+  mask.close();
+  return mask;
 }
 
-/// The box around the images of all faces that meet `box`.
-GridBox box_of_faces_in(const TriangleMesh& mesh, const ImagePlane& image, const GridBox& box) {
-  const std::vector<std::uint8_t> sides = sides_of(image, box);
-  GridBox around = box;
-  for (const Triangle& face : mesh.triangles) {
-    if (!meets_box(face, sides)) continue;
-    for (const std::uint32_t v : face) {
-      if (image.has_image(v)) around.add(image.points[v]);
-    }
+/// What the boxes of the faces that meet `mask` cover.
+TileMask mask_of_faces_in(const TileMask& mask, const TriangleMesh& mesh, const ImagePlane& image,
+                          Extent extent) {
+  const std::vector<std::uint8_t> meets = faces_that_meet(mask, mesh, image);
+  TileMask around(extent);
+  for (std::size_t f = 0; f < meets.size(); ++f) {
+    if (meets[f] == 0) continue;
+    if (const std::optional<GridBox> box = box_of(mesh.triangles[f], image)) around.mark(*box);
   }
+  around.close();
   return around;
 }
 
@@ -89,12 +160,13 @@ void remove_gone_faces(TriangleMesh& whole, const MeshPart& part, const FaceChan
 MeshPart cut_out_part(const TriangleMesh& whole, const View& view, std::span<const Pixel> pixels,
                       int margin) {
   const ImagePlane image = project_to_image(whole.positions, view);
-  const std::vector<std::uint8_t> sides =
-      sides_of(image, box_of_faces_in(whole, image, box_around(pixels, margin)));
+  const TileMask near = mask_around(pixels, margin, view.extent());
+  const std::vector<std::uint8_t> meets =
+      faces_that_meet(mask_of_faces_in(near, whole, image, view.extent()), whole, image);
   std::vector<std::uint8_t> is_inner(whole.positions.size(), 0);
-  for (const Triangle& face : whole.triangles) {
-    if (!meets_box(face, sides)) continue;
-    for (const std::uint32_t v : face)
+  for (std::size_t f = 0; f < meets.size(); ++f) {
+    if (meets[f] == 0) continue;
+    for (const std::uint32_t v : whole.triangles[f])
       is_inner[v] = 1;
   }
 

@@ -18,10 +18,11 @@ struct MeshPart {
   std::vector<std::uint8_t> is_rim;            ///< per vertex: has faces outside of the part
 };
 
-/// Cuts out the faces whose box in the image comes within `margin` pixels of the pixels' box, those
-/// in the box that their corners take in turn, and one ring around: whatever is done to the
-/// faces near the pixels, their neighbours are there. Faces with a corner behind the viewer belong
-/// to it. O(vertices + faces) of the whole, 10 ns each, and the only step of a stitch that is.
+/// Cuts out the faces whose box in the image comes within `margin` pixels of one of the pixels,
+/// those that meet their boxes in turn, both to a tile of 8 pixels, and one ring around: whatever
+/// is done to the faces near the pixels, their neighbours are there. Faces with a corner behind the
+/// viewer belong to it. O(vertices + faces) of the whole, 10 ns each, and the only step of a stitch
+/// that is.
 [[nodiscard]] MeshPart cut_out_part(const TriangleMesh& whole, const View& view,
                                     std::span<const Pixel> pixels, int margin);
 
