@@ -1,6 +1,9 @@
 #include "core/stitch/face_changes.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "core/mesh/edge_map.h"
 
@@ -15,35 +18,86 @@ Triangle from_lowest(const Triangle& face) {
   return result;
 }
 
+/// Finds for faces after a change the same ones before it.
+class Matcher {
+ public:
+  Matcher(const TriangleMesh& before, const TriangleMesh& after)
+      : before_(before),
+        after_(after),
+        is_left_(before.triangles.size(), 0),
+        is_old_(after.triangles.size(), 0) {}
+
+  /// What stays mostly keeps its order, so a walk along both lists pairs most faces at once. Where
+  /// new faces stand between, it would look at many in vain: it ends once it has done so for as
+  /// many as there are.
+  void match_in_order() {
+    const std::size_t count = before_.triangles.size();
+    std::size_t next = 0, in_vain = 0;
+    for (std::size_t f = 0; f < is_old_.size() && in_vain <= count; ++f) {
+      const Triangle& face = after_.triangles[f];
+      if (!has_stayed(face)) continue;
+      std::size_t same = next;
+      while (same < count && before_.triangles[same] != face)
+        ++same;
+      if (same == count) {
+        in_vain += count - next;
+        continue;
+      }
+      is_left_[same] = is_old_[f] = 1;
+      next = same + 1;
+    }
+  }
+
+  /// All others. A directed edge has one face, so the one from the lowest corner names it.
+  void match_by_edges() {
+    const auto left = static_cast<std::size_t>(std::count(is_left_.begin(), is_left_.end(), 1));
+    EdgeMap faces(is_left_.size() - left);
+    for (std::uint32_t f = 0; f < is_left_.size(); ++f) {
+      if (is_left_[f] != 0) continue;
+      const Triangle face = from_lowest(before_.triangles[f]);
+      faces.insert(face[0], face[1], f);
+    }
+    for (std::size_t f = 0; f < is_old_.size(); ++f) {
+      if (is_old_[f] != 0 || !has_stayed(after_.triangles[f])) continue;
+      const Triangle face = from_lowest(after_.triangles[f]);
+      const std::uint32_t old = faces.find(face[0], face[1]);
+      if (old == EdgeMap::kNone || from_lowest(before_.triangles[old]) != face) continue;
+      is_left_[old] = is_old_[f] = 1;
+    }
+  }
+
+  [[nodiscard]] FaceChanges changes() const {
+    FaceChanges changes;
+    for (std::uint32_t f = 0; f < is_old_.size(); ++f) {
+      if (is_old_[f] == 0) changes.made.push_back(f);
+    }
+    for (std::uint32_t f = 0; f < is_left_.size(); ++f) {
+      if (is_left_[f] == 0) changes.gone.push_back(f);
+    }
+    return changes;
+  }
+
+ private:
+  /// None of the corners is new or has moved.
+  [[nodiscard]] bool has_stayed(const Triangle& face) const {
+    return std::all_of(face.begin(), face.end(), [&](std::uint32_t v) {
+      return v < before_.positions.size() && before_.positions[v] == after_.positions[v];
+    });
+  }
+
+  const TriangleMesh& before_;
+  const TriangleMesh& after_;
+  std::vector<std::uint8_t> is_left_;  ///< per face before
+  std::vector<std::uint8_t> is_old_;   ///< per face after
+};
+
 }  // namespace
 
 FaceChanges find_face_changes(const TriangleMesh& before, const TriangleMesh& after) {
-  // A directed edge has one face, so the one from the lowest corner names it.
-  EdgeMap faces(before.triangles.size());
-  for (std::uint32_t f = 0; f < before.triangles.size(); ++f) {
-    const Triangle face = from_lowest(before.triangles[f]);
-    faces.insert(face[0], face[1], f);
-  }
-  const auto stayed = [&](std::uint32_t v) {
-    return v < before.positions.size() && before.positions[v] == after.positions[v];
-  };
-  FaceChanges changes;
-  std::vector<std::uint8_t> is_left(before.triangles.size(), 0);
-  for (std::uint32_t f = 0; f < after.triangles.size(); ++f) {
-    const Triangle face = from_lowest(after.triangles[f]);
-    const std::uint32_t old = faces.find(face[0], face[1]);
-    const bool is_same = old != EdgeMap::kNone && from_lowest(before.triangles[old]) == face &&
-                         std::all_of(face.begin(), face.end(), stayed);
-    if (is_same) {
-      is_left[old] = 1;
-    } else {
-      changes.made.push_back(f);
-    }
-  }
-  for (std::uint32_t f = 0; f < is_left.size(); ++f) {
-    if (is_left[f] == 0) changes.gone.push_back(f);
-  }
-  return changes;
+  Matcher matcher(before, after);
+  matcher.match_in_order();
+  matcher.match_by_edges();
+  return matcher.changes();
 }
 
 }  // namespace rangezip

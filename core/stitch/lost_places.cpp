@@ -1,6 +1,7 @@
 #include "core/stitch/lost_places.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -118,25 +119,74 @@ void forget_those_near(const NewVertices& vertices, double distance, Places& pla
   places.pixels.resize(kept);
 }
 
-/// The faces in the box around the places.
+/// The cells of a coarse grid that come within a distance of one of the places.
+class CellsNear {
+ public:
+  CellsNear(const std::vector<Vec3>& places, double distance) : is_near_(kCells, 0) {
+    for (const Vec3& place : places)
+      bounds_.add(place);
+    bounds_.lower -= Vec3(distance);
+    bounds_.upper += Vec3(distance);
+    for (const Vec3& place : places) {
+      for_each_cell({place - Vec3(distance), place + Vec3(distance)}, [&](std::size_t cell) {
+        is_near_[cell] = 1;
+        return false;
+      });
+    }
+  }
+
+  /// Whether the box may meet one of them; false is certain.
+  [[nodiscard]] bool meets(const Box& box) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (box.lower[axis] > bounds_.upper[axis] || bounds_.lower[axis] > box.upper[axis])
+        return false;
+    }
+    return for_each_cell(box, [&](std::size_t cell) { return is_near_[cell] != 0; });
+  }
+
+ private:
+  static constexpr std::size_t kSide = 64;
+  static constexpr std::size_t kCells = kSide * kSide * kSide;
+
+  [[nodiscard]] std::array<std::size_t, 3> cell_of(const Vec3& point) const {
+    std::array<std::size_t, 3> cell{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<int>(axis);
+      const double share =
+          (point[a] - bounds_.lower[a]) / (bounds_.upper[a] - bounds_.lower[a]) * kSide;
+      cell[axis] = static_cast<std::size_t>(std::clamp(share, 0.0, kSide - 1.0));
+    }
+    return cell;
+  }
+
+  /// Visits cells that the box meets until one visit returns true; whether one did.
+  template <class Visit>
+  bool for_each_cell(const Box& box, const Visit& visit) const {
+    const auto first = cell_of(box.lower), last = cell_of(box.upper);
+    for (std::size_t z = first[2]; z <= last[2]; ++z) {
+      for (std::size_t y = first[1]; y <= last[1]; ++y) {
+        for (std::size_t x = first[0]; x <= last[0]; ++x) {
+          if (visit((z * kSide + y) * kSide + x)) return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  Box bounds_;
+  std::vector<std::uint8_t> is_near_;
+};
+
+/// The faces that may be within `distance` of the places, and more.
 TriangleMesh around(const TriangleMesh& mesh, const std::vector<Vec3>& places, double distance) {
-  Box bounds;
-  for (const Vec3& place : places)
-    bounds.add(place);
-  bounds.lower -= Vec3(distance);
-  bounds.upper += Vec3(distance);
+  const CellsNear cells(places, distance);
   TriangleMesh part;
   part.positions = mesh.positions;
   for (const Triangle& face : mesh.triangles) {
     Box box;
     for (const std::uint32_t v : face)
       box.add(mesh.positions[v]);
-    bool meets = true;
-    for (int axis = 0; axis < 3; ++axis) {
-      meets =
-          meets && box.lower[axis] <= bounds.upper[axis] && bounds.lower[axis] <= box.upper[axis];
-    }
-    if (meets) part.triangles.push_back(face);
+    if (cells.meets(box)) part.triangles.push_back(face);
   }
   remove_unused_vertices(part);
   return part;
