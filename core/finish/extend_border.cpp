@@ -27,6 +27,9 @@ constexpr double kHalvingCost = 0.5;
 /// The same for each move of the vertex before: a vertex must not go to and fro between points.
 constexpr double kMoveCost = 0.5;
 constexpr std::uint32_t kMaxMoves = 6;
+/// Times as many border edges as there were: a border that moves out to where the cloud ends grows
+/// little; one that feathers follows points of which no scan has an image.
+constexpr std::size_t kMaxGrowth = 3;
 constexpr int kMaxRings = 4;     ///< around a face that is cut away
 constexpr int kMaxFailures = 3;  ///< of steps at an edge before its face is cut away
 constexpr std::uint32_t kNone = CornerTable::kNone;
@@ -58,6 +61,13 @@ std::array<double, 3> key_of(const Vec3& point) {
   return {point.x, point.y, point.z};
 }
 
+std::size_t count_border_edges(const CornerTable& table) {
+  std::size_t count = 0;
+  for (std::uint32_t c = 0; c < table.corner_count(); ++c)
+    count += table.across(c) == kNone ? 1 : 0;
+  return count;
+}
+
 class Extender {
  public:
   Extender(TriangleMesh& mesh, const PointGrid& cloud, const ExtendBorderOptions& options)
@@ -70,6 +80,9 @@ class Extender {
   /// @return whether anything changed
   bool round(ExtendBorderReport& report) {
     const CornerTable table(mesh_.triangles, mesh_.positions.size());
+    const std::size_t border_edges = count_border_edges(table);
+    if (first_border_edges_ == 0) first_border_edges_ = border_edges;
+    if (border_edges > kMaxGrowth * first_border_edges_) return false;
     const FaceGrid faces(mesh_, table, reach_);
     std::vector<BorderGap> gaps =
         find_border_gaps(mesh_, table, faces, cloud_, {reach_, kNegligible * h_});
@@ -256,6 +269,7 @@ class Extender {
   double h_;
   double reach_;
   std::size_t min_component_;
+  std::size_t first_border_edges_ = 0;
   std::vector<std::uint32_t> moves_;  // of each vertex so far
   std::map<EdgeKey, Failures> failures_;
   std::map<std::array<double, 3>, int> cuts_;  // so far, for a point

@@ -31,7 +31,8 @@ struct ExtendBorderReport {
 /// edge's face is cut away, with more of its neighbours each time that it is the same point.
 /// Without self-intersections before there are none after; the surface stays manifold and oriented;
 /// a mesh without border, or without points beyond it, does not change.
-/// Cost: some linear passes over the mesh a round; rounds end when nothing is left to do.
+/// Cost: some linear passes over the mesh a round; rounds end when nothing is left to do, or the
+/// border has three times as many edges as at first.
 /// @param cloud without points nothing happens
 /// @pre oriented, manifold (core/finish/clean_topology.h)
 ExtendBorderReport extend_border(TriangleMesh& mesh, const PointGrid& cloud,

@@ -97,7 +97,7 @@ FillOutcome fill(TriangleMesh& mesh, bool is_zipped, const PointGrid& cloud,
   const bool any_zipped = std::any_of(requests.begin(), requests.end(), [](const FillRequest& r) {
     return r.shape == FillShape::zipped;
   });
-  outcome.is_done = fills.rejected.empty() && !any_zipped;
+  outcome.is_done = fills.rejected.empty() && fills.zipped_pieces == 0 && !any_zipped;
   return outcome;
 }
 

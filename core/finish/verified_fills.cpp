@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "core/base/parallel.h"
@@ -66,23 +67,25 @@ class Filler {
   VerifiedFills run() {
     std::vector<std::size_t> all(requests_.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
-    fill(all, false);
-    const std::vector<std::size_t> again = std::move(result_.rejected);
-    result_.rejected.clear();
-    if (!again.empty()) fill(again, true);
+    fill(all, std::nullopt);
+    for (const FillShape simpler : {FillShape::coarse, FillShape::zipped}) {
+      const std::vector<std::size_t> again = std::exchange(result_.rejected, {});
+      if (!again.empty()) fill(again, simpler);
+    }
     return std::move(result_);
   }
 
  private:
   /// Fills the chosen requests, appends what passes, and notes the others.
-  void fill(const std::vector<std::size_t>& chosen, bool coarse) {
+  /// @param instead of the shape asked for
+  void fill(const std::vector<std::size_t>& chosen, std::optional<FillShape> instead) {
+    const auto shape_of = [&](std::size_t request) {
+      return instead.value_or(requests_[request].shape);
+    };
     std::vector<std::vector<HoleFill>> made(chosen.size());
     parallel_for(chosen.size(), 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) {
-        const FillRequest& request = requests_[chosen[k]];
-        made[k] =
-            fills_for(mesh_, table_, request, coarse ? FillShape::coarse : request.shape, options_);
-      }
+      for (std::size_t k = begin; k < end; ++k)
+        made[k] = fills_for(mesh_, table_, requests_[chosen[k]], shape_of(chosen[k]), options_);
     });
     std::vector<HoleFill> fills;
     std::vector<std::size_t> request_of;
@@ -93,16 +96,18 @@ class Filler {
     }
     const std::vector<std::uint8_t> fails = failing_fills(mesh_, fills);
     const std::size_t base = mesh_.positions.size();
+    std::vector<std::uint8_t> is_served(requests_.size(), 0);
     for (std::size_t i = 0; i < fills.size(); ++i) {
-      const bool is_good = fails[i] == 0 && !fills[i].triangles.empty();
-      const bool is_zipped = requests_[request_of[i]].shape == FillShape::zipped;
-      if (is_good) {
-        append_fill(mesh_, fills[i], base);
-        result_.filled_faces += fills[i].triangles.size();
-        ++(is_zipped ? result_.zipped_pieces : result_.filled_holes);
-      } else if (!is_zipped) {
-        result_.rejected.push_back(request_of[i]);
-      }
+      if (fails[i] != 0 || fills[i].triangles.empty()) continue;
+      append_fill(mesh_, fills[i], base);
+      result_.filled_faces += fills[i].triangles.size();
+      const bool is_piece = shape_of(request_of[i]) == FillShape::zipped;
+      ++(is_piece ? result_.zipped_pieces : result_.filled_holes);
+      is_served[request_of[i]] = 1;
+    }
+    for (const std::size_t request : chosen) {
+      if (is_served[request] == 0 && requests_[request].shape != FillShape::zipped)
+        result_.rejected.push_back(request);
     }
   }
 

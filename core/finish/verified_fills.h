@@ -22,11 +22,12 @@ struct VerifiedFills {
   std::size_t filled_holes = 0;
   std::size_t filled_faces = 0;
   std::size_t zipped_pieces = 0;
-  std::vector<std::size_t> rejected;  ///< indices of requests to fill that were not filled
+  std::vector<std::size_t> rejected;  ///< indices of requests to fill that nothing was done for
 };
 
 /// Fills loops and keeps the fills whose faces neither cross the mesh, nor each other, nor have no
-/// area; where a refined fill fails a coarse one is tried. A mesh without self-intersections stays
+/// area; where a refined fill fails a coarse one is tried, and then to close a part where the sides
+/// are close. A mesh without self-intersections stays
 /// without. Of two fills that cross, the earlier one stays.
 /// @pre `table` is that of `mesh` (and no longer after).
 VerifiedFills fill_verified(TriangleMesh& mesh, const CornerTable& table,

@@ -79,4 +79,26 @@ void close_front_sheet(Grid<std::uint32_t>& depth, std::uint32_t tolerance) {
     z[pixel] = median;
 }
 
+namespace {
+
+constexpr double kFrontDepth = 1.5;       ///< pixel sides within which a point is of the sheet
+constexpr double kSeeThroughDepth = 2.5;  ///< pixel sides, see close_front_sheet()
+
+View view_of_box(const Box& bounds, const Vec3& toward_viewer, double pixel_size) {
+  FramedCamera framed = frame_box(bounds, toward_viewer, pixel_size);
+  return {std::move(framed.camera), framed.extent};
+}
+
+}  // namespace
+
+FrontSheet::FrontSheet(Rasterizer& rasterizer, std::span<const DrawItem> items, const Box& bounds,
+                       const Vec3& toward_viewer, double pixel_size, Framebuffer& buffer)
+    : view_(view_of_box(bounds, toward_viewer, pixel_size)) {
+  rasterizer.render(view_, items, buffer);
+  const double units_per_side = pixel_size * depth_units_per_length(view_);
+  close_front_sheet(buffer.depth, static_cast<std::uint32_t>(kSeeThroughDepth * units_per_side));
+  depth_ = buffer.depth.pixels();
+  tolerance_ = static_cast<float>(kFrontDepth * units_per_side);
+}
+
 }  // namespace rangezip

@@ -3,9 +3,13 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include "core/base/geometry.h"
+#include "core/base/parallel.h"
+#include "core/raster/draw_item.h"
 #include "core/raster/framebuffer.h"
+#include "core/raster/rasterizer.h"
 #include "core/view/view.h"
 
 namespace rangezip {
@@ -51,5 +55,35 @@ class PointProjector {
 /// that median. The images of a planner are small and sparse; this is a cheap stand-in for
 /// remove_see_through().
 void close_front_sheet(Grid<std::uint32_t>& depth, std::uint32_t tolerance);
+
+/// What is seen from one direction: the points within 1.5 pixel sides of the closed front sheet.
+class FrontSheet {
+ public:
+  /// Draws the items.
+  /// @param pixel_size of the image, model units
+  /// @param buffer holds the sheet as long as it is asked for
+  FrontSheet(Rasterizer& rasterizer, std::span<const DrawItem> items, const Box& bounds,
+             const Vec3& toward_viewer, double pixel_size, Framebuffer& buffer);
+
+  /// Visits the indices of the points of one of the items that are seen, in parallel.
+  template <class Visit>
+  void for_each_seen(const DrawPoints& cloud, const Visit& visit) const {
+    const PointProjector project(view_, cloud.world_from_item);
+    parallel_for(cloud.positions.size(), kPointsPerBlock, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const PointProjector::Place place = project(cloud.positions[i]);
+        if (place.pixel == PointProjector::kOutside) continue;
+        if (place.depth <= static_cast<float>(depth_[place.pixel]) + tolerance_) visit(i);
+      }
+    });
+  }
+
+ private:
+  static constexpr std::size_t kPointsPerBlock = 1U << 15U;
+
+  View view_;
+  std::span<const std::uint32_t> depth_;
+  float tolerance_ = 0.0F;  ///< framebuffer units
+};
 
 }  // namespace rangezip

@@ -1,40 +1,63 @@
 #include "core/plan/open_sheet.h"
 
 #include <algorithm>
-#include <memory>
+#include <array>
+#include <cstdint>
 #include <vector>
 
+#include "core/plan/directions.h"
+#include "core/plan/front_sheet.h"
 #include "core/plan/spacing.h"
 #include "core/plan/spread.h"
-#include "core/plan/visibility_vote.h"
-#include "core/scene/scene.h"
 
 namespace rangezip {
 
+namespace {
+
+/// Flags of the points seen from a direction.
+std::vector<std::uint8_t> seen_from(Rasterizer& rasterizer, const DrawPoints& cloud,
+                                    const Box& bounds, const Vec3& toward_viewer, double pixel_size,
+                                    Framebuffer& buffer) {
+  const std::array<DrawItem, 1> items{cloud};
+  const FrontSheet front(rasterizer, items, bounds, toward_viewer, pixel_size, buffer);
+  std::vector<std::uint8_t> is_seen(cloud.positions.size(), 0);
+  front.for_each_seen(cloud, [&](std::size_t i) { is_seen[i] = 1; });
+  return is_seen;
+}
+
+}  // namespace
+
 bool is_open_sheet(Rasterizer& rasterizer, std::span<const Vec3> points, const Progress& progress) {
   constexpr std::size_t kSubset = 60'000;
-  constexpr int kDecisive = 76;  // 0.6 of a full vote of 127
+  constexpr int kDirections = 40;
+  constexpr double kSheetShare = 0.3;
   std::vector<Vec3> subset;
   for (const std::size_t index : spread_indices(points.size(), kSubset)) {
     subset.push_back(points[index]);
   }
   const double pixel_size = closed_sheet_pixel_size(estimate_spacing(subset));
 
-  const Vec3 origin = robust_bounds(subset).center();
-  PointCloud cloud;
+  const Box bounds = robust_bounds(subset);
+  const Vec3 origin = bounds.center();
+  std::vector<Vec3f> local;
   for (const Vec3& p : subset)
-    cloud.positions.emplace_back(p - origin);
-  Mat4 world_from_item{1.0};
-  world_from_item[3] = Vec4(origin, 1.0);
-  Scene scene;
-  scene.add(std::make_shared<const PointCloud>(std::move(cloud)), world_from_item);
+    local.emplace_back(p - origin);
+  DrawPoints cloud{.positions = local};
+  cloud.world_from_item[3] = Vec4(origin, 1.0);
 
-  std::size_t decisive = 0;
-  for (const auto& vote : visibility_votes(rasterizer, scene, pixel_size, 40, progress)) {
-    const int squared = vote[0] * vote[0] + vote[1] * vote[1] + vote[2] * vote[2];
-    decisive += squared >= kDecisive * kDecisive ? 1U : 0U;
+  Framebuffer buffer;
+  std::size_t either = 0, both = 0;
+  for (const Vec3& direction : sphere_directions(kDirections)) {
+    if (direction.z < 0.0) continue;  // their opposites are looked at
+    progress.check_stop();
+    const auto front = seen_from(rasterizer, cloud, bounds, direction, pixel_size, buffer);
+    const auto back = seen_from(rasterizer, cloud, bounds, -direction, pixel_size, buffer);
+    for (std::size_t i = 0; i < front.size(); ++i) {
+      either += front[i] | back[i];
+      both += front[i] & back[i];
+    }
   }
-  return 2 * decisive < subset.size();
+  return static_cast<double>(both) > kSheetShare * static_cast<double>(either);
 }
 
 }  // namespace rangezip

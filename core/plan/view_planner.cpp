@@ -24,18 +24,20 @@ using Quality = std::uint8_t;
 constexpr double kBarelySeen = 40.0;
 constexpr double kBestQuality = 255.0;
 
-/// The points that the plan is made for, floats about a local origin, and the small images in
-/// which their visibility is decided.
+/// What is drawn and what is to be seen of it, floats about a local origin, and the small images
+/// in which visibility is decided.
 struct Subset {
   std::vector<Vec3f> positions;
+  std::vector<Vec3f> targets;
   Mat4 world_from_item{1.0};
   Box bounds;
   double pixel_size = 0.0;
 };
 
-void check_arguments(std::span<const Vec3> points, double pixel_size,
+void check_arguments(std::span<const Vec3> points, std::span<const Vec3> targets, double pixel_size,
                      const ViewPlanOptions& options) {
   if (points.empty()) throw InvalidArgument("plan_views: points must not be empty");
+  if (targets.empty()) throw InvalidArgument("plan_views: targets must not be empty");
   if (!(pixel_size > 0.0) || !std::isfinite(pixel_size)) {
     throw InvalidArgument("plan_views: pixel_size must be positive and finite, got " +
                           std::to_string(pixel_size));
@@ -47,6 +49,10 @@ void check_arguments(std::span<const Vec3> points, double pixel_size,
   if (options.candidates < 1) {
     throw InvalidArgument("plan_views: candidates must be at least 1, got " +
                           std::to_string(options.candidates));
+  }
+  if (options.views_for_quality < 0) {
+    throw InvalidArgument("plan_views: views_for_quality must not be negative, got " +
+                          std::to_string(options.views_for_quality));
   }
   if (options.subset < 1) throw InvalidArgument("plan_views: subset must be at least 1, got 0");
   if (!(options.max_slope_cosine > 0.0 && options.max_slope_cosine < 1.0)) {
@@ -62,22 +68,42 @@ double planning_pixel_size(std::span<const Vec3> subset, double pixel_size) {
   return std::max(pixel_size, closed_sheet_pixel_size(estimate_spacing(subset)));
 }
 
+/// Those in the box, which outliers are not: they need not be seen.
+std::vector<Vec3> inside(const Box& box, std::span<const Vec3> points) {
+  std::vector<Vec3> chosen;
+  for (const Vec3& p : points) {
+    Box with_point = box;
+    with_point.add(p);
+    if (with_point == box) chosen.push_back(p);
+  }
+  return chosen;
+}
+
+std::vector<Vec3f> about(const Vec3& origin, std::span<const Vec3> points) {
+  std::vector<Vec3f> local;
+  local.reserve(points.size());
+  for (const Vec3& p : points)
+    local.emplace_back(p - origin);
+  return local;
+}
+
+std::vector<Vec3> spread_points(std::span<const Vec3> points, std::size_t wanted) {
+  std::vector<Vec3> chosen;
+  for (const std::size_t index : spread_indices(points.size(), wanted))
+    chosen.push_back(points[index]);
+  return chosen;
+}
+
+/// What is to be seen is what is drawn.
 Subset choose_subset(std::span<const Vec3> points, double pixel_size, std::size_t wanted) {
   Subset subset;
   subset.bounds = robust_bounds(points);
   const Vec3 origin = subset.bounds.center();
   subset.world_from_item[3] = Vec4(origin, 1.0);
-  std::vector<Vec3> chosen;
-  for (const std::size_t index : spread_indices(points.size(), wanted)) {
-    const Vec3& p = points[index];
-    Box with_point = subset.bounds;
-    with_point.add(p);
-    if (with_point == subset.bounds) chosen.push_back(p);  // outliers need not be seen
-  }
+  const std::vector<Vec3> chosen = inside(subset.bounds, spread_points(points, wanted));
   subset.pixel_size = planning_pixel_size(chosen, pixel_size);
-  subset.positions.reserve(chosen.size());
-  for (const Vec3& p : chosen)
-    subset.positions.emplace_back(p - origin);
+  subset.positions = about(origin, chosen);
+  subset.targets = subset.positions;
   return subset;
 }
 
@@ -146,7 +172,7 @@ std::vector<PixelVerdict> judge_pixels(const Grid<std::uint32_t>& depth, float u
   return verdicts;
 }
 
-/// How well the view that drew `depth` samples each point of the subset.
+/// How well the view that drew `depth` samples each target.
 std::vector<Quality> judge_points(const Subset& subset, const View& view,
                                   Grid<std::uint32_t>& depth, double max_slope_cosine) {
   constexpr double kSeeThroughDepth = 2.5;  // pixel sides
@@ -156,9 +182,9 @@ std::vector<Quality> judge_points(const Subset& subset, const View& view,
       judge_pixels(depth, static_cast<float>(units_per_side), max_slope_cosine);
 
   const PointProjector project(view, subset.world_from_item);
-  std::vector<Quality> qualities(subset.positions.size(), 0);
+  std::vector<Quality> qualities(subset.targets.size(), 0);
   for (std::size_t i = 0; i < qualities.size(); ++i) {
-    const PointProjector::Place place = project(subset.positions[i]);
+    const PointProjector::Place place = project(subset.targets[i]);
     if (place.pixel == PointProjector::kOutside) continue;
     const PixelVerdict& verdict = verdicts[place.pixel];
     if (place.depth <= verdict.limit) qualities[i] = verdict.quality;
@@ -310,23 +336,19 @@ void exclude_other_side(Greedy& greedy, std::span<const Vec3> directions, const 
   }
 }
 
-}  // namespace
-
-ViewPlan plan_views(Rasterizer& rasterizer, std::span<const Vec3> points, double pixel_size,
-                    const ViewPlanOptions& options, const Progress& progress) {
-  check_arguments(points, pixel_size, options);
-  const Subset subset = choose_subset(points, pixel_size, options.subset);
+ViewPlan plan_for(Rasterizer& rasterizer, const Subset& subset, const ViewPlanOptions& options,
+                  const Progress& progress) {
   const std::vector<Vec3> directions = candidate_directions(options.candidates);
   const std::vector<std::vector<Quality>> qualities =
       judge_candidates(rasterizer, subset, directions, options, progress);
 
-  constexpr std::size_t kViewsForQuality = 6;  // from then on a view must see something new
-  const std::size_t count = subset.positions.size();
+  const std::size_t count = subset.targets.size();
   const auto wanted = options.coverage * static_cast<double>(count);
   const auto min_new = options.min_gain * static_cast<double>(count);
+  const auto views_for_quality = static_cast<std::size_t>(options.views_for_quality);
   ViewPlan plan{.reachable = reachable_share(qualities, count)};
   Greedy greedy(qualities, count);
-  Worth worth = kWholeWorth;
+  Worth worth = views_for_quality > 0 ? kWholeWorth : kCoverageOnly;
   std::size_t seen = 0;
   while (plan.directions.size() < static_cast<std::size_t>(options.max_views) &&
          static_cast<double>(seen) < wanted) {
@@ -335,7 +357,7 @@ ViewPlan plan_views(Rasterizer& rasterizer, std::span<const Vec3> points, double
         plan.directions.empty() ? greedy.pick_first(worth, directions) : greedy.pick(worth);
     if (view == directions.size()) break;
     const std::size_t newly_seen = greedy.newly_seen(view);
-    if (plan.directions.size() >= kViewsForQuality && static_cast<double>(newly_seen) < min_new) {
+    if (plan.directions.size() >= views_for_quality && static_cast<double>(newly_seen) < min_new) {
       if (worth == kCoverageOnly) break;
       worth = kCoverageOnly;
       continue;
@@ -349,6 +371,24 @@ ViewPlan plan_views(Rasterizer& rasterizer, std::span<const Vec3> points, double
     plan.coverage.push_back(static_cast<double>(seen) / static_cast<double>(count));
   }
   return plan;
+}
+
+}  // namespace
+
+ViewPlan plan_views(Rasterizer& rasterizer, std::span<const Vec3> points, double pixel_size,
+                    const ViewPlanOptions& options, const Progress& progress) {
+  check_arguments(points, points, pixel_size, options);
+  return plan_for(rasterizer, choose_subset(points, pixel_size, options.subset), options, progress);
+}
+
+ViewPlan plan_views_of(Rasterizer& rasterizer, std::span<const Vec3> points,
+                       std::span<const Vec3> targets, double pixel_size,
+                       const ViewPlanOptions& options, const Progress& progress) {
+  check_arguments(points, targets, pixel_size, options);
+  Subset subset = choose_subset(points, pixel_size, options.subset);
+  subset.targets = about(subset.bounds.center(), inside(subset.bounds, targets));
+  if (subset.targets.empty()) return {};
+  return plan_for(rasterizer, subset, options, progress);
 }
 
 }  // namespace rangezip

@@ -17,9 +17,10 @@ struct ViewPlanOptions {
   double max_slope_cosine = 0.342;  ///< a point is seen well if its surface is tilted less (70
                                     ///< degrees)
   double coverage = 0.999;          ///< stop when this share of the points is seen
-  double min_gain = 0.0005;  ///< stop when a view adds less than this share (after six views)
-  bool one_sided = false;    ///< only views less than 90 degrees from the first one: an open
-                             ///< sheet is scanned from one side
+  double min_gain = 0.0005;         ///< stop when a view adds less than this share
+  int views_for_quality = 6;        ///< so many views may add less, since they see points better
+  bool one_sided = false;           ///< only views less than 90 degrees from the first one: an open
+                                    ///< sheet is scanned from one side
 };
 
 /// Directions toward the viewer, best first, and what they reach.
@@ -40,6 +41,15 @@ struct ViewPlan {
 [[nodiscard]] ViewPlan plan_views(Rasterizer& rasterizer, std::span<const Vec3> points,
                                   double pixel_size, const ViewPlanOptions& options = {},
                                   const Progress& progress = {});
+
+/// The same for some points only, which others hide: parallel views that together see `targets`,
+/// such as what earlier views have left out.
+/// @param points what hides the targets; the targets are among them
+/// @throws InvalidArgument as plan_views(), and if there are no targets.
+[[nodiscard]] ViewPlan plan_views_of(Rasterizer& rasterizer, std::span<const Vec3> points,
+                                     std::span<const Vec3> targets, double pixel_size,
+                                     const ViewPlanOptions& options = {},
+                                     const Progress& progress = {});
 
 /// Up to `max_views` directions that look into the boundary loops of `mesh` that are longer than
 /// `min_loop` (model units): greedy over the normals of the faces at the loops, in decreasing order

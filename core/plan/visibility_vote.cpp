@@ -19,8 +19,6 @@ namespace {
 using VoteSum = std::array<std::int16_t, 3>;
 
 constexpr std::size_t kPointsPerBlock = 1U << 15U;
-constexpr double kFrontDepth = 1.5;  ///< pixel sides within which a point is of the front sheet
-constexpr double kSeeThroughDepth = 2.5;  ///< pixel sides, see close_front_sheet()
 constexpr double kFullVote = 127.0;
 /// A vote needs no finer image; more pixels only cost time.
 constexpr double kMaxPixelsAcross = 2048.0;
@@ -34,22 +32,6 @@ VoteSum vote_of(const Vec3& direction, int count) {
         static_cast<std::int16_t>(std::floor(unit * direction[axis] + 0.5));
   }
   return vote;
-}
-
-/// Adds `vote` to the sum of each point that lies on the front sheet.
-void add_votes(const View& view, const DrawPoints& cloud, std::span<const std::uint32_t> front,
-               float tolerance, const VoteSum& vote, std::span<VoteSum> sums) {
-  const PointProjector project(view, cloud.world_from_item);
-  parallel_for(cloud.positions.size(), kPointsPerBlock, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const PointProjector::Place place = project(cloud.positions[i]);
-      if (place.pixel == PointProjector::kOutside) continue;
-      if (place.depth > static_cast<float>(front[place.pixel]) + tolerance) continue;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        sums[i][axis] = static_cast<std::int16_t>(sums[i][axis] + vote[axis]);
-      }
-    }
-  });
 }
 
 /// Scales sums so that a point of an open plane, which half of the directions see, gets a vote of
@@ -93,19 +75,16 @@ VisibilityVotes visibility_votes(Rasterizer& rasterizer, const Scene& scene, dou
   const std::vector<Vec3> directions = sphere_directions(direction_count);
   for (std::size_t d = 0; d < directions.size(); ++d) {
     progress.at("visibility vote", static_cast<double>(d) / direction_count);
-    FramedCamera framed = frame_box(bounds, directions[d], side);
-    const View view(std::move(framed.camera), framed.extent);
-    rasterizer.render(view, items, buffer);
-    const double units_per_side = side * depth_units_per_length(view);
-    close_front_sheet(buffer.depth, static_cast<std::uint32_t>(kSeeThroughDepth * units_per_side));
-
+    const FrontSheet front(rasterizer, items, bounds, directions[d], side, buffer);
     const VoteSum vote = vote_of(directions[d], direction_count);
     std::span<VoteSum> rest(sums);
     for (const DrawItem& item : items) {
       const auto* cloud = std::get_if<DrawPoints>(&item);
       if (cloud == nullptr) continue;
-      add_votes(view, *cloud, buffer.depth.pixels(),
-                static_cast<float>(kFrontDepth * units_per_side), vote, rest);
+      front.for_each_seen(*cloud, [&](std::size_t i) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          rest[i][axis] = static_cast<std::int16_t>(rest[i][axis] + vote[axis]);
+      });
       rest = rest.subspan(cloud->positions.size());
     }
   }

@@ -7,9 +7,11 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/mesh/coverage.h"
 #include "core/mesh/self_intersection.h"
 #include "core/plan/open_sheet.h"
 #include "core/plan/spacing.h"
+#include "core/plan/spread.h"
 #include "core/plan/view_planner.h"
 #include "core/reconstruct/resolution.h"
 #include "core/reconstruct/scan_recipe.h"
@@ -20,6 +22,14 @@ namespace {
 
 constexpr int kFillRounds = 2;
 constexpr int kFillViewsPerRound = 6;
+constexpr int kCoverRounds = 2;
+constexpr int kCoverViewsPerRound = 12;
+/// Of the samples: of a body that is seen whole fewer are left, and fill views see to them.
+constexpr double kUncoveredShare = 0.02;
+constexpr double kMinNewPoints = 40;  ///< that a view must add: fewer are a few pixels
+constexpr std::size_t kJudgedSamples = 100'000;
+constexpr std::size_t kCoverSamples = 2'000'000;  ///< drawn to plan views of what is uncovered
+constexpr double kCosine75Degrees = 0.2588190451025207;  ///< steeper cells are cut, see scan_recipe
 constexpr double kMinFillLoop = 6.0;  ///< pixel sides; shorter loops are left to the finish
 constexpr std::size_t kAreaSamples = 400'000;  ///< of polygons, to plan and to judge coverage
 
@@ -93,6 +103,7 @@ class Run {
   ReconstructResult result() {
     choose_resolution_and_views();
     scan_planned_views();
+    scan_uncovered();
     scan_fill_views();
     finish_mesh();
     check_result();
@@ -150,20 +161,62 @@ class Run {
     clock_.finish("scan");
   }
 
+  /// Samples farther from the mesh than a pixel side; none if they are a small share.
+  [[nodiscard]] std::vector<Vec3> uncovered_samples() const {
+    std::vector<Vec3> chosen;
+    for (const std::size_t index : spread_indices(samples_.size(), kJudgedSamples))
+      chosen.push_back(samples_[index]);
+    const std::vector<std::uint8_t> is_covered =
+        covered_points(chosen, *session_.mesh(), recipe_.pixel_size);
+    std::vector<Vec3> uncovered;
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      if (is_covered[i] == 0) uncovered.push_back(chosen[i]);
+    }
+    const double share = static_cast<double>(uncovered.size()) / static_cast<double>(chosen.size());
+    if (share < kUncoveredShare) uncovered.clear();
+    return uncovered;
+  }
+
+  /// The plan was made for a part of the points in small images: what it overlooked, in narrow gaps
+  /// above all, is looked for again with the points that are left and the pixels of the scans.
+  void scan_uncovered() {
+    for (int round = 0; round < kCoverRounds; ++round) {
+      const std::vector<Vec3> uncovered = uncovered_samples();
+      if (uncovered.empty()) break;
+      const ViewPlan plan =
+          plan_views_of(rasterizer_, samples_, uncovered, recipe_.pixel_size,
+                        {.max_views = kCoverViewsPerRound,
+                         .subset = kCoverSamples,
+                         .max_slope_cosine = kCosine75Degrees,
+                         .coverage = 1.0,
+                         .min_gain = kMinNewPoints / static_cast<double>(uncovered.size()),
+                         .views_for_quality = 0},
+                        part_of(progress_, "fill views", kFillShare, kFillShare));
+      if (plan.directions.empty()) break;
+      scan_into_holes(plan.directions);
+    }
+    clock_.finish("uncovered");
+  }
+
   void scan_fill_views() {
     for (int round = 0; round < kFillRounds; ++round) {
       const std::vector<Vec3> directions =
           plan_fill_views(*session_.mesh(), kMinFillLoop * recipe_.pixel_size, kFillViewsPerRound);
       if (directions.empty()) break;
-      for (const Vec3& direction : directions) {
-        if (recipe_.one_sided && !(glm::dot(direction, result_.report.views[0]) > 0.0)) continue;
-        const auto view = static_cast<std::uint32_t>(result_.report.views.size());
-        apply(fill_scan(recipe_, direction, view),
-              part_of(progress_, "fill views", kFillShare, kFinishShare));
-        result_.report.views.push_back(direction);
-      }
+      scan_into_holes(directions);
     }
     clock_.finish("fill views");
+  }
+
+  /// Scans of an open sheet stay on the side of the first one.
+  void scan_into_holes(std::span<const Vec3> directions) {
+    for (const Vec3& direction : directions) {
+      if (recipe_.one_sided && !(glm::dot(direction, result_.report.views[0]) > 0.0)) continue;
+      const auto view = static_cast<std::uint32_t>(result_.report.views.size());
+      apply(fill_scan(recipe_, direction, view),
+            part_of(progress_, "fill views", kFillShare, kFinishShare));
+      result_.report.views.push_back(direction);
+    }
   }
 
   void finish_mesh() {
