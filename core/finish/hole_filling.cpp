@@ -108,7 +108,7 @@ FilledMesh fill_mesh_holes(TriangleMesh mesh, double edge_length, double max_per
     if (perimeter_of(loop, table, mesh.positions) > max_perimeter) continue;
     requests.push_back({std::move(loop), FillShape::smooth});
   }
-  const VerifiedFills fills = fill_verified(mesh, table, requests, {edge_length, 0.0});
+  const VerifiedFills fills = fill_verified(mesh, table, requests, {.edge_length = edge_length});
   FilledMesh result;
   result.filled_holes = fills.filled_holes;
   result.filled_faces = fills.filled_faces;

@@ -84,8 +84,9 @@ FillOutcome fill(TriangleMesh& mesh, bool is_zipped, const PointGrid& cloud,
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (shapes[i]) requests.push_back({std::move(loops[i]), *shapes[i]});
   }
+  const double h = options.pixel_size;
   const VerifiedFills fills = fill_verified(
-      mesh, table, requests, {options.pixel_size, options.narrow_width * options.pixel_size});
+      mesh, table, requests, {h, options.narrow_width * h, options.max_hole_perimeter * h});
   report.filled_holes += fills.filled_holes;
   report.filled_faces += fills.filled_faces;
   FillOutcome outcome;

@@ -68,10 +68,16 @@ class Filler {
     std::vector<std::size_t> all(requests_.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     fill(all, std::nullopt);
-    for (const FillShape simpler : {FillShape::coarse, FillShape::zipped}) {
-      const std::vector<std::size_t> again = std::exchange(result_.rejected, {});
-      if (!again.empty()) fill(again, simpler);
-    }
+    fill(std::exchange(result_.rejected, {}), FillShape::coarse);
+    const auto is_short = [&](std::size_t request) {
+      return perimeter_of(requests_[request].loop, table_, mesh_.positions) <= options_.zipped_from;
+    };
+    std::vector<std::size_t> again = std::exchange(result_.rejected, {});
+    const auto first_short = std::stable_partition(
+        again.begin(), again.end(), [&](std::size_t request) { return !is_short(request); });
+    result_.rejected.assign(first_short, again.end());
+    again.erase(first_short, again.end());
+    fill(again, FillShape::zipped);
     return std::move(result_);
   }
 
@@ -79,6 +85,7 @@ class Filler {
   /// Fills the chosen requests, appends what passes, and notes the others.
   /// @param instead of the shape asked for
   void fill(const std::vector<std::size_t>& chosen, std::optional<FillShape> instead) {
+    if (chosen.empty()) return;
     const auto shape_of = [&](std::size_t request) {
       return instead.value_or(requests_[request].shape);
     };

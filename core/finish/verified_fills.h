@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "core/finish/hole_filling.h"
@@ -16,6 +17,7 @@ struct FillRequest {
 struct VerifiedFillOptions {
   double edge_length = 0.0;  ///< of new edges, model units; see fill_loop
   double zip_width = 0.0;    ///< sides this close get zipped, model units; see zip_loop
+  double zipped_from = std::numeric_limits<double>::infinity();  ///< perimeter, model units
 };
 
 struct VerifiedFills {
@@ -26,9 +28,9 @@ struct VerifiedFills {
 };
 
 /// Fills loops and keeps the fills whose faces neither cross the mesh, nor each other, nor have no
-/// area; where a refined fill fails a coarse one is tried, and then to close a part where the sides
-/// are close. A mesh without self-intersections stays
-/// without. Of two fills that cross, the earlier one stays.
+/// area; where a refined fill fails a coarse one is tried, and of loops longer than zipped_from
+/// then the part where their sides are close. A mesh without self-intersections stays without. Of
+/// two fills that cross, the earlier one stays.
 /// @pre `table` is that of `mesh` (and no longer after).
 VerifiedFills fill_verified(TriangleMesh& mesh, const CornerTable& table,
                             const std::vector<FillRequest>& requests,
