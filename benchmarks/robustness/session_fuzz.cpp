@@ -21,6 +21,7 @@
 #include "benchmarks/report.h"
 #include "core/base/parallel.h"
 #include "tests/support/random_sessions.h"
+#include "tests/support/session_judge.h"
 
 namespace {
 
