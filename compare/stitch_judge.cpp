@@ -13,13 +13,6 @@ namespace rangezip::compare {
 
 namespace {
 
-double smallest_pixel_size(const Scan& scan) {
-  double smallest = kNoSample;
-  for (const Pixel p : scan.patch.pixels)
-    smallest = std::min(smallest, scan.image.pixel_size(p));
-  return smallest;
-}
-
 LocationVerdict judge_samples(const TriangleMesh& before, const Scan& scan, double slack) {
   std::vector<PrimitiveId> faces;
   for (const Pixel p : scan.patch.pixels)
@@ -58,7 +51,7 @@ std::vector<SurfacePath> follow(const TriangleMesh& before, const Scan& scan,
                                 const StitchRecord& record,
                                 std::span<const std::array<std::uint32_t, 2>> segments,
                                 std::size_t& lost) {
-  const SeenMesh seen(before, scan.image.view());
+  const ViewedMesh seen(before, scan.image.view());
   const auto place_of = [&](std::uint32_t vertex) {
     const auto found = std::lower_bound(record.vertices.begin(), record.vertices.end(), vertex,
                                         [](const StitchRecord::Vertex& v, std::uint32_t wanted) {
@@ -129,7 +122,7 @@ StitchVerdict judge_stitch(const TriangleMesh& before, const Scan& scan, const S
   check_record(scan, record);
   StitchVerdict verdict;
   if (before.empty() || scan.patch.mesh.empty()) return verdict;
-  verdict.pixel_size = smallest_pixel_size(scan);
+  verdict.pixel_size = pixel_sides_of(scan.patch, scan.image).smallest;
   verdict.slack = options.slack * verdict.pixel_size;
   verdict.samples = judge_samples(before, scan, verdict.slack);
   judge_insertions(before, scan, record, verdict);

@@ -21,7 +21,7 @@ Edge edge_of(const Triangle& face, std::size_t k) {
 /// What a line from pixel to pixel needs to find its way.
 class Line {
  public:
-  Line(const SeenMesh& seen, Pixel from, Pixel to)
+  Line(const ViewedMesh& seen, Pixel from, Pixel to)
       : seen_(seen), from_(grid_point(from)), to_(grid_point(to)) {}
 
   [[nodiscard]] std::optional<SurfacePath> follow(std::uint32_t start, std::uint32_t end) const;
@@ -42,7 +42,7 @@ class Line {
     return orientation(from_, to_, point(v));
   }
 
-  const SeenMesh& seen_;
+  const ViewedMesh& seen_;
   GridPoint from_, to_;
 };
 
@@ -146,13 +146,13 @@ double length_of(const std::vector<Vec3>& points) {
   return length;
 }
 
-SeenMesh::SeenMesh(const TriangleMesh& of_mesh, const View& of_view)
+ViewedMesh::ViewedMesh(const TriangleMesh& of_mesh, const View& of_view)
     : mesh(&of_mesh),
       view(&of_view),
       image(project_to_image(of_mesh.positions, of_view)),
       edges(edges_of(of_mesh)) {}
 
-std::optional<SurfacePath> follow_line(const SeenMesh& seen, const SeenPlace& from,
+std::optional<SurfacePath> follow_line(const ViewedMesh& seen, const SeenPlace& from,
                                        const SeenPlace& to) {
   return Line(seen, from.pixel, to.pixel).follow(from.face, to.face);
 }

@@ -22,9 +22,10 @@ struct SurfacePath {
 /// Model units.
 [[nodiscard]] double length_of(const std::vector<Vec3>& points);
 
-/// A mesh as one view sees it, with the images of its vertices on the grid of the stitcher.
-struct SeenMesh {
-  SeenMesh(const TriangleMesh& mesh, const View& view);
+/// A mesh as one view sees it, with the images of its vertices on the grid of the stitcher. Mesh
+/// and view must outlive it.
+struct ViewedMesh {
+  ViewedMesh(const TriangleMesh& mesh, const View& view);
 
   const TriangleMesh* mesh;
   const View* view;
@@ -43,7 +44,7 @@ struct SeenPlace {
 /// that look at the viewer only; a line through a vertex passes it on the right.
 /// @return nothing if a face does not hold its pixel, or the line leaves these faces, or arrives on
 ///     another sheet
-[[nodiscard]] std::optional<SurfacePath> follow_line(const SeenMesh& seen, const SeenPlace& from,
+[[nodiscard]] std::optional<SurfacePath> follow_line(const ViewedMesh& seen, const SeenPlace& from,
                                                      const SeenPlace& to);
 
 }  // namespace rangezip::compare

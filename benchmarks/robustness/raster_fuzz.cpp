@@ -15,7 +15,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -43,8 +42,7 @@ struct Options {
   std::string strategy;  ///< of OpenGL; empty: the backend chooses
   std::optional<std::uint64_t> scene;
   std::string control;
-  std::string json;
-  std::string revision = "unknown";
+  benchmark::ReportOptions report;
 };
 
 /// What was compared; pixels once for each operation and rasterizer.
@@ -230,7 +228,7 @@ ordered_json to_json(const Count& count) {
 }
 
 ordered_json to_json(const Options& options, const Result& result, double seconds) {
-  ordered_json json = benchmark::describe_run("raster_fuzz", options.revision);
+  ordered_json json = benchmark::describe_run("raster_fuzz", options.report.revision);
   json["build_type"] = RANGEZIP_BUILD_TYPE;
   json["seconds"] = std::round(seconds);
   json["seed"] = options.seed;
@@ -250,10 +248,7 @@ ordered_json to_json(const Options& options, const Result& result, double second
 
 Options parse(const std::vector<std::string>& arguments) {
   Options options;
-  for (std::size_t i = 0; i < arguments.size(); i += 2) {
-    const std::string& name = arguments[i];
-    if (i + 1 == arguments.size()) throw std::runtime_error(name + " needs a value");
-    const std::string& value = arguments[i + 1];
+  const auto set = [&](const std::string& name, const std::string& value) {
     if (name == "--pixels") {
       options.pixels = static_cast<std::uint64_t>(std::stod(value));  // 1e9 is easier to read
     } else if (name == "--seed") {
@@ -268,14 +263,12 @@ Options parse(const std::vector<std::string>& arguments) {
       options.scene = std::stoull(value);
     } else if (name == "--control") {
       options.control = value;
-    } else if (name == "--json") {
-      options.json = value;
-    } else if (name == "--revision") {
-      options.revision = value;
     } else {
-      throw std::runtime_error("there is no option " + name);
+      return false;
     }
-  }
+    return true;
+  };
+  options.report = benchmark::read_options(arguments, set);
   if (options.threads < 1) throw std::runtime_error("--threads must be at least 1");
   if (!options.strategy.empty() && !app::is_gl(options.against)) {
     throw std::runtime_error("--strategy needs --against gl, or one that begins with gl:");
@@ -296,11 +289,7 @@ int run_and_report(const Options& options) {
   if (result.failure) print(options, *result.failure);
   ordered_json json = to_json(options, result, taken.count());
   if (!options.scene) json["wrong_rules"] = run_controls(options, all_noticed);
-  if (!options.json.empty()) {
-    std::ofstream file(options.json);
-    file << json.dump(1) << '\n';
-    if (!file.flush()) throw std::runtime_error("cannot write " + options.json);
-  }
+  benchmark::write_report(options.report, json);
   std::printf("%llu pixels of %llu scenes compared in %.0f s: %s\n",
               static_cast<unsigned long long>(result.total.pixels),
               static_cast<unsigned long long>(result.total.scenes), taken.count(),
@@ -311,10 +300,7 @@ int run_and_report(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run_and_report(parse({argv + 1, argv + argc}));
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "raster_fuzz: %s\n", e.what());
-    return 2;
-  }
+  return rangezip::benchmark::run_program(
+      "raster_fuzz", argc, argv,
+      [](const std::vector<std::string>& arguments) { return run_and_report(parse(arguments)); });
 }

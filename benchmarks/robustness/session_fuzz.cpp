@@ -6,21 +6,21 @@
 //       are printed as they are met.
 //   session_fuzz --seed S --session K    that one alone, command by command
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "benchmarks/report.h"
 #include "core/base/parallel.h"
 #include "tests/support/random_sessions.h"
+#include "tests/support/session_judge.h"
 
 namespace {
 
@@ -33,8 +33,7 @@ struct Options {
   std::uint64_t first = 0;
   std::uint64_t seed = 1;
   std::optional<std::uint64_t> session;
-  std::string json;
-  std::string revision = "unknown";
+  benchmark::ReportOptions report;
 };
 
 /// Of all sessions, or of those of one model or way of stitching.
@@ -58,14 +57,19 @@ void add(const Counts& from, Counts& to) {
     to[name] += count;
 }
 
+/// The rest of a line that begins with the command.
+void print_causes(const sessions::Step& step) {
+  for (const auto& [cause, amount] : step.faults.by_cause()) {
+    if (amount > 0) std::printf(" %s %zu", cause.c_str(), amount);
+  }
+  std::printf(" %s\n", step.what.c_str());
+}
+
 void print_faults(std::uint64_t number, const sessions::Outcome& outcome) {
   for (const sessions::Step& step : outcome.steps) {
     if (!step.faults.any()) continue;
     std::printf("session %llu, %s:", static_cast<unsigned long long>(number), step.kind.c_str());
-    for (const auto& [cause, amount] : step.faults.by_cause()) {
-      if (amount > 0) std::printf(" %s %zu", cause.c_str(), amount);
-    }
-    std::printf(" %s\n", step.what.c_str());
+    print_causes(step);
   }
   std::fflush(stdout);
 }
@@ -122,10 +126,7 @@ void show(const Options& options) {
   std::printf("%s, %zu commands\n", session.model.c_str(), session.commands.size());
   for (const sessions::Step& step : sessions::run_session(session).steps) {
     std::printf("%-16s", step.kind.c_str());
-    for (const auto& [cause, amount] : step.faults.by_cause()) {
-      if (amount > 0) std::printf(" %s %zu", cause.c_str(), amount);
-    }
-    std::printf(" %s\n", step.what.c_str());
+    print_causes(step);
   }
 }
 
@@ -137,7 +138,7 @@ ordered_json to_json(const Tally& tally) {
 }
 
 ordered_json to_json(const Options& options, const Result& result, double seconds) {
-  ordered_json json = benchmark::describe_run("session_fuzz", options.revision);
+  ordered_json json = benchmark::describe_run("session_fuzz", options.report.revision);
   json["build_type"] = RANGEZIP_BUILD_TYPE;
   json["seconds"] = std::round(seconds);
   json["seed"] = options.seed;
@@ -154,10 +155,7 @@ ordered_json to_json(const Options& options, const Result& result, double second
 
 Options parse(const std::vector<std::string>& arguments) {
   Options options;
-  for (std::size_t i = 0; i < arguments.size(); i += 2) {
-    const std::string& name = arguments[i];
-    if (i + 1 == arguments.size()) throw std::runtime_error(name + " needs a value");
-    const std::string& value = arguments[i + 1];
+  const auto set = [&](const std::string& name, const std::string& value) {
     if (name == "--sessions") {
       options.sessions = std::stoull(value);
     } else if (name == "--first") {
@@ -166,14 +164,12 @@ Options parse(const std::vector<std::string>& arguments) {
       options.seed = std::stoull(value);
     } else if (name == "--session") {
       options.session = std::stoull(value);
-    } else if (name == "--json") {
-      options.json = value;
-    } else if (name == "--revision") {
-      options.revision = value;
     } else {
-      throw std::runtime_error("there is no option " + name);
+      return false;
     }
-  }
+    return true;
+  };
+  options.report = benchmark::read_options(arguments, set);
   return options;
 }
 
@@ -187,11 +183,7 @@ int run_and_report(const Options& options) {
   const Result result = run(options);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   print(result);
-  if (!options.json.empty()) {
-    std::ofstream file(options.json);
-    file << to_json(options, result, taken.count()).dump(1) << '\n';
-    if (!file.flush()) throw std::runtime_error("cannot write " + options.json);
-  }
+  benchmark::write_report(options.report, to_json(options, result, taken.count()));
   std::printf("%zu sessions of %zu commands in %.0f s: %zu faulty commands\n",
               result.total.sessions, result.total.commands, taken.count(),
               result.total.faulty_commands);
@@ -201,10 +193,7 @@ int run_and_report(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run_and_report(parse({argv + 1, argv + argc}));
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "session_fuzz: %s\n", e.what());
-    return 2;
-  }
+  return rangezip::benchmark::run_program(
+      "session_fuzz", argc, argv,
+      [](const std::vector<std::string>& arguments) { return run_and_report(parse(arguments)); });
 }

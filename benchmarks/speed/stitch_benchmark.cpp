@@ -6,11 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <exception>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -91,8 +88,8 @@ double measure_all(StitchMethod method, ordered_json& rows) {
   return seconds.back() / seconds.front();
 }
 
-int run(const std::string& json_file, const std::string& revision) {
-  ordered_json json = benchmark::describe_run("stitch_benchmark", revision);
+int run(const benchmark::ReportOptions& options) {
+  ordered_json json = benchmark::describe_run("stitch_benchmark", options.revision);
   bool is_local = true;
   for (const StitchMethod method : {StitchMethod::clear_and_fill, StitchMethod::zipper}) {
     const double ratio = measure_all(method, json["rows"]);
@@ -100,30 +97,16 @@ int run(const std::string& json_file, const std::string& revision) {
     json["ratios"].push_back(ratio);
     std::printf("a million by 50 thousand: %.2f, at most %.1f demanded\n", ratio, kMostRatio);
   }
-  if (!json_file.empty()) {
-    std::ofstream file(json_file);
-    file << json.dump(1) << '\n';
-    if (!file.flush()) throw std::runtime_error("cannot write " + json_file);
-  }
+  benchmark::write_report(options, json);
   return is_local ? 0 : 1;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    std::string json;
-    std::string revision = "unknown";
-    const std::vector<std::string> arguments(argv + 1, argv + argc);
-    for (std::size_t i = 0; i < arguments.size(); i += 2) {
-      const bool is_known = arguments[i] == "--json" || arguments[i] == "--revision";
-      if (!is_known) throw std::runtime_error("there is no option " + arguments[i]);
-      if (i + 1 == arguments.size()) throw std::runtime_error(arguments[i] + " needs a value");
-      (arguments[i] == "--json" ? json : revision) = arguments[i + 1];
-    }
-    return run(json, revision);
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "stitch_benchmark: %s\n", e.what());
-    return 2;
-  }
+  const auto no_others = [](const std::string&, const std::string&) { return false; };
+  return rangezip::benchmark::run_program(
+      "stitch_benchmark", argc, argv, [&](const std::vector<std::string>& arguments) {
+        return run(rangezip::benchmark::read_options(arguments, no_others));
+      });
 }

@@ -17,14 +17,6 @@ bool repeats_corner(const Triangle& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
 
-void drop_faces(TriangleMesh& mesh, const std::vector<std::uint8_t>& dropped) {
-  std::size_t kept = 0;
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    if (dropped[f] == 0) mesh.triangles[kept++] = mesh.triangles[f];
-  }
-  mesh.triangles.resize(kept);
-}
-
 /// Marks faces with a directed edge that an earlier kept face has.
 void mark_reused_edges(const TriangleMesh& mesh, std::vector<std::uint8_t>& dropped) {
   std::vector<std::uint32_t> starts(mesh.positions.size() + 1, 0);
@@ -131,12 +123,12 @@ std::size_t clean_topology(TriangleMesh& mesh) {
   std::erase_if(mesh.triangles, repeats_corner);
   std::vector<std::uint8_t> dropped(mesh.triangles.size(), 0);
   mark_reused_edges(mesh, dropped);
-  drop_faces(mesh, dropped);
+  remove_triangles(mesh.triangles, dropped);
   // A dropped fan may cut another vertex's fan in two; each round drops faces, so this ends.
   for (;;) {
     dropped.assign(mesh.triangles.size(), 0);
     if (!mark_extra_fans(mesh, dropped)) break;
-    drop_faces(mesh, dropped);
+    remove_triangles(mesh.triangles, dropped);
   }
   return before - mesh.triangles.size();
 }
@@ -170,7 +162,7 @@ DroppedComponents drop_small_components(TriangleMesh& mesh, std::size_t min_face
   std::vector<std::uint8_t> dropped(mesh.triangles.size(), 0);
   for (std::size_t f = 0; f < dropped.size(); ++f)
     dropped[f] = goes[component[f]];
-  drop_faces(mesh, dropped);
+  remove_triangles(mesh.triangles, dropped);
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/finish/edge_changes.h"
 #include "core/finish/triangle_shape.h"
 
 namespace rangezip {
@@ -20,29 +21,11 @@ constexpr double kAlignedGain = 0.995;  // of the deviation: equal ones would tu
 constexpr double kAlignedCosine = 0.8;
 constexpr int kRegularValence = 6;
 
-/// An inner edge a - b with the opposite corners x (left of it) and y.
-struct Diamond {
-  std::uint32_t a, b, x, y;
-
-  Diamond(const CornerTable& table, std::uint32_t c)
-      : a(table.vertex(c)), b(table.head(c)), x(table.apex(c)), y(table.apex(table.across(c))) {}
-};
-
-double angle_before(const std::vector<Vec3>& p, const Diamond& d) {
-  return std::min(sine_of_smallest_angle(p[d.a], p[d.b], p[d.x]),
-                  sine_of_smallest_angle(p[d.b], p[d.a], p[d.y]));
-}
-double angle_after(const std::vector<Vec3>& p, const Diamond& d) {
-  return std::min(sine_of_smallest_angle(p[d.a], p[d.y], p[d.x]),
-                  sine_of_smallest_angle(p[d.b], p[d.x], p[d.y]));
-}
-
 /// Whether the faces after the flip look where those before it did.
 bool keeps_sides(const std::vector<Vec3>& p, const Diamond& d) {
-  const Vec3 old_x = glm::normalize(area_vector(p[d.a], p[d.b], p[d.x]));
-  const Vec3 old_y = glm::normalize(area_vector(p[d.b], p[d.a], p[d.y]));
-  const Vec3 new_a = glm::normalize(area_vector(p[d.a], p[d.y], p[d.x]));
-  const Vec3 new_b = glm::normalize(area_vector(p[d.b], p[d.x], p[d.y]));
+  const DiamondAreas areas(p, d);
+  const Vec3 old_x = glm::normalize(areas.old_x), old_y = glm::normalize(areas.old_y);
+  const Vec3 new_a = glm::normalize(areas.new_a), new_b = glm::normalize(areas.new_b);
   // A face without area has no direction; comparisons with it are false.
   const double sharpness = glm::dot(new_a, new_b);
   return sharpness >= kMinCosine && !(sharpness < glm::dot(old_x, old_y) - kMaxSharper) &&
@@ -94,7 +77,7 @@ double deviation(const std::vector<Vec3>& p, const std::vector<Vec3>& normals, s
 
 std::size_t flip_for_angles(CornerTable& table, const std::vector<Vec3>& positions) {
   const auto is_better = [&](const Diamond& d) {
-    return angle_after(positions, d) >= angle_before(positions, d) + kGain &&
+    return angle_after_flip(positions, d) >= angle_before_flip(positions, d) + kGain &&
            keeps_sides(positions, d);
   };
   return flip_where(table, is_better, [](const Diamond&) {});
@@ -107,7 +90,8 @@ std::size_t flip_for_valence(CornerTable& table, const std::vector<Vec3>& positi
     return difference * difference;
   };
   const auto is_better = [&](const Diamond& d) {
-    const double before = angle_before(positions, d), after = angle_after(positions, d);
+    const double before = angle_before_flip(positions, d);
+    const double after = angle_after_flip(positions, d);
     const bool mends = before < kSmallAngle && after >= before + kGain;
     const bool is_more_regular = off(d.a, -1) + off(d.b, -1) + off(d.x, 1) + off(d.y, 1) <
                                  off(d.a, 0) + off(d.b, 0) + off(d.x, 0) + off(d.y, 0);
@@ -130,12 +114,10 @@ std::size_t flip_for_normals(CornerTable& table, const std::vector<Vec3>& positi
            normals[d.y] != zero;
   };
   const auto is_better = [&](const Diamond& d) {
-    if (!has_normals(d) || angle_after(positions, d) < kAlignedAngle) return false;
-    const Vec3 new_a = area_vector(positions[d.a], positions[d.y], positions[d.x]);
-    const Vec3 new_b = area_vector(positions[d.b], positions[d.x], positions[d.y]);
-    const Vec3 old_x = area_vector(positions[d.a], positions[d.b], positions[d.x]);
-    if (!has_cosine(new_a, new_b, kAlignedCosine) || !has_cosine(new_a, old_x, kAlignedCosine))
-      return false;
+    if (!has_normals(d) || angle_after_flip(positions, d) < kAlignedAngle) return false;
+    const DiamondAreas areas(positions, d);
+    if (!has_cosine(areas.new_a, areas.new_b, kAlignedCosine)) return false;
+    if (!has_cosine(areas.new_a, areas.old_x, kAlignedCosine)) return false;
     const double before =
         deviation(positions, normals, d.a, d.b, d.x) + deviation(positions, normals, d.b, d.a, d.y);
     const double after =

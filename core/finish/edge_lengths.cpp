@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <utility>
 
 #include "core/finish/vertex_geometry.h"
 
@@ -13,6 +12,7 @@ namespace {
 constexpr double kLargestRatio = 1.6;   // to the mean, both ways
 constexpr double kLeastBending = 0.02;  // radians over an edge
 constexpr int kSmoothings = 4;
+constexpr double kSmoothing = 0.5;  // of the way to the mean of the neighbours
 constexpr int kScalings = 4;
 
 /// x^(-1/3) of a positive number, by operations that are the same in every mathematical library.
@@ -30,21 +30,6 @@ double inverse_cube_root(double x) {
 
 double frobenius(const Mat3& m) {
   return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
-}
-
-/// Each value goes half-way to the mean of its neighbours'.
-void smooth(const CornerTable& table, std::vector<double>& values) {
-  std::vector<double> next = values;
-  for (std::uint32_t v = 0; v < values.size(); ++v) {
-    double sum = 0.0;
-    int count = 0;
-    table.for_each_neighbor(v, [&](std::uint32_t w) {
-      sum += values[w];
-      ++count;
-    });
-    if (count > 0) next[v] = 0.5 * (values[v] + sum / count);
-  }
-  values = std::move(next);
 }
 
 double bounded(double length) {
@@ -130,7 +115,7 @@ std::vector<double> relative_edge_lengths(const CornerTable& table,
     lengths[v] = inverse_cube_root(std::max(bending, kLeastBending));
   }
   for (int i = 0; i < kSmoothings; ++i)
-    smooth(table, lengths);
+    lengths = smoothed(table, lengths, kSmoothing);
   const double unit = unit_of(table, positions, lengths);
   for (double& value : lengths)
     value = bounded(value / unit);

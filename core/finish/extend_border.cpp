@@ -253,11 +253,7 @@ class Extender {
         cut_.insert(sorted(mesh_.triangles[f]));
       }
     }
-    std::size_t kept = 0;
-    for (std::size_t f = 0; f < mesh_.triangles.size(); ++f) {
-      if (goes[f] == 0) mesh_.triangles[kept++] = mesh_.triangles[f];
-    }
-    mesh_.triangles.resize(kept);
+    remove_triangles(mesh_.triangles, goes);
     clean_topology(mesh_);
     const DroppedComponents dropped = drop_small_components(mesh_, min_component_);
     sum.components += dropped.components;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/finish/edge_changes.h"
 #include "core/finish/triangle_shape.h"
 
 namespace rangezip {
@@ -68,17 +69,17 @@ class Cleaner {
     }
   }
 
+  /// Moving the half-edge's vertex into its head neither turns a face that has a direction nor
+  /// leaves it with a small angle.
   [[nodiscard]] bool keeps_shape(std::uint32_t corner) const {
-    const std::uint32_t target = table_.head(corner);
+    const Vec3 &from = at(table_.vertex(corner)), &to = at(table_.head(corner));
     const double negligible = kNegligibleArea * h_ * h_;
     bool ok = true;
-    table_.for_each_corner(table_.vertex(corner), [&](std::uint32_t c) {
-      const std::uint32_t p = table_.head(c), q = table_.apex(c);
-      if (!ok || p == target || q == target) return;
-      const Vec3 before = area_vector(at(table_.vertex(c)), at(p), at(q));
-      const Vec3 after = area_vector(at(target), at(p), at(q));
+    for_each_face_after_collapse(table_, corner, [&](std::uint32_t p, std::uint32_t q) {
+      if (!ok) return;
+      const Vec3 before = area_vector(from, at(p), at(q)), after = area_vector(to, at(p), at(q));
       ok = (has_cosine(before, after, kCollapseTurn) &&
-            sine_of_smallest_angle(at(target), at(p), at(q)) >= kMinAngleAfterCollapse) ||
+            sine_of_smallest_angle(to, at(p), at(q)) >= kMinAngleAfterCollapse) ||
            glm::dot(before, before) <= negligible * negligible;
     });
     return ok;
@@ -87,13 +88,10 @@ class Cleaner {
   void join_features() {
     for (std::uint32_t c = 0; c < table_.corner_count(); ++c) {
       if (!table_.names_inner_edge(c)) continue;
-      const std::uint32_t a = table_.vertex(c), b = table_.head(c);
-      const std::uint32_t x = table_.apex(c), y = table_.apex(table_.across(c));
-      if (is_feature_[x] == 0 || is_feature_[y] == 0) continue;
-      if (is_feature_[a] != 0 && is_feature_[b] != 0) continue;
-      if (sine_of_smallest_angle(at(a), at(y), at(x)) < kMinAngleAfterFlip) continue;
-      if (sine_of_smallest_angle(at(b), at(x), at(y)) < kMinAngleAfterFlip) continue;
-      if (!table_.is_flip_ok(c)) continue;
+      const Diamond d(table_, c);
+      if (is_feature_[d.x] == 0 || is_feature_[d.y] == 0) continue;
+      if (is_feature_[d.a] != 0 && is_feature_[d.b] != 0) continue;
+      if (angle_after_flip(positions_, d) < kMinAngleAfterFlip || !table_.is_flip_ok(c)) continue;
       table_.flip(c);
       ++report_.flipped_edges;
     }
@@ -125,7 +123,7 @@ class Cleaner {
       }
     }
     for (std::uint32_t c = 3 * face; c < 3 * face + 3; ++c) {
-      const double angle = angle_after_flip(c);
+      const double angle = angle_after_turning(c);
       if (angle < best || !table_.is_flip_ok(c)) continue;
       best = angle;
       flip = c;
@@ -143,33 +141,28 @@ class Cleaner {
   /// The smallest angle around after the half-edge's vertex moved into its head; -1 if a face
   /// would turn or lose its area.
   [[nodiscard]] double angle_after_collapse(std::uint32_t corner) const {
-    const std::uint32_t target = table_.head(corner);
+    const Vec3 &from = at(table_.vertex(corner)), &to = at(table_.head(corner));
     double smallest = 1.0;
-    table_.for_each_corner(table_.vertex(corner), [&](std::uint32_t c) {
-      const std::uint32_t p = table_.head(c), q = table_.apex(c);
-      if (smallest < 0.0 || p == target || q == target) return;
-      const Vec3& from = at(table_.vertex(c));
+    for_each_face_after_collapse(table_, corner, [&](std::uint32_t p, std::uint32_t q) {
+      if (smallest < 0.0) return;
       const double before = sine_of_smallest_angle(from, at(p), at(q));
-      const double after = sine_of_smallest_angle(at(target), at(p), at(q));
+      const double after = sine_of_smallest_angle(to, at(p), at(q));
       const bool turns =
-          before > kHasDirection && !has_cosine(area_vector(from, at(p), at(q)),
-                                                area_vector(at(target), at(p), at(q)), kSliverTurn);
+          before > kHasDirection &&
+          !has_cosine(area_vector(from, at(p), at(q)), area_vector(to, at(p), at(q)), kSliverTurn);
       smallest = turns || after <= kNoArea ? -1.0 : std::min(smallest, after);
     });
     return smallest;
   }
 
-  /// -1 if the edge is none to flip: both new faces must look as the face beyond the edge does.
-  [[nodiscard]] double angle_after_flip(std::uint32_t c) const {
+  /// Of both new faces; -1 if the edge is none to turn: they must look as the face beyond it does.
+  [[nodiscard]] double angle_after_turning(std::uint32_t c) const {
     if (table_.across(c) == CornerTable::kNone) return -1.0;
-    const Vec3& a = at(table_.vertex(c));
-    const Vec3& b = at(table_.head(c));
-    const Vec3& x = at(table_.apex(c));
-    const Vec3& y = at(table_.apex(table_.across(c)));
-    const Vec3 beyond = area_vector(b, a, y);
-    if (!has_cosine(area_vector(a, y, x), beyond, kSliverTurn)) return -1.0;
-    if (!has_cosine(area_vector(b, x, y), beyond, kSliverTurn)) return -1.0;
-    return std::min(sine_of_smallest_angle(a, y, x), sine_of_smallest_angle(b, x, y));
+    const Diamond d(table_, c);
+    const DiamondAreas areas(positions_, d);
+    const bool keeps_direction = has_cosine(areas.new_a, areas.old_y, kSliverTurn) &&
+                                 has_cosine(areas.new_b, areas.old_y, kSliverTurn);
+    return keeps_direction ? angle_after_flip(positions_, d) : -1.0;
   }
 
   CornerTable& table_;

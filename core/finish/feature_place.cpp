@@ -11,7 +11,6 @@ namespace {
 
 // Lengths are in h, angles as cosines, squared distances of points in those of the noise.
 constexpr std::size_t kMaxSides = 5;
-constexpr double kFeatureCosine = 0.87;
 constexpr double kCornerReach = 0.8;  // of the edges around; of corners none may be missed
 constexpr double kEdgeReach = 0.5;    // of the edges around: one of two ends is so near
 constexpr double kMaxMove = 2.5;

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/finish/vertex_geometry.h"
+#include "core/base/solve.h"
 
 namespace rangezip {
 namespace {
@@ -32,14 +32,6 @@ FeatureSide mean_of(const FeatureSide& sum) {
   const double share = 1.0 / sum.weight;
   return {{share * sum.height.constant, share * sum.height.slope, share * sum.height.bending},
           sum.weight};
-}
-
-/// The solution of a symmetric positive definite system by Cramer's rule, with the determinant.
-std::optional<Vec3> solve(const Mat3& a, const Vec3& b) {
-  const Vec3 c0 = glm::cross(a[1], a[2]), c1 = glm::cross(a[2], a[0]), c2 = glm::cross(a[0], a[1]);
-  const double determinant = glm::dot(a[0], c0);
-  if (!(determinant > kMinVolume)) return std::nullopt;
-  return Vec3(glm::dot(b, c0), glm::dot(b, c1), glm::dot(b, c2)) / determinant;
 }
 
 }  // namespace
@@ -90,7 +82,7 @@ std::optional<Vec3> meeting_place(std::span<const FeatureSide> sides) {
         products[row][column] = products[column][row] = glm::dot(slopes[i], slopes[j]);
       }
     }
-    const std::optional<Vec3> shares = solve(products, wanted);
+    const std::optional<Vec3> shares = solve(products, wanted, kMinVolume);
     if (!shares) return std::nullopt;
     place = shares->x * slopes[0] + shares->y * slopes[1] + shares->z * slopes[2];
   }

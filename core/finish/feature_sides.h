@@ -8,6 +8,9 @@
 
 namespace rangezip {
 
+/// Cosine of 30 degrees: directions that differ by more are those of two sides of a feature.
+inline constexpr double kFeatureCosine = 0.87;
+
 /// How high places lie over a curved surface, to second order, relative to an origin close by:
 /// constant + slope . p - p . bending p / 2.
 struct SurfaceHeight {

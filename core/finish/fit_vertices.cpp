@@ -17,6 +17,10 @@ constexpr double kMinCosine = 0.6;  // between the fitted surface and the mesh
 constexpr int kSteps = 3;           // of solving; more bring no change that can be measured
 constexpr std::size_t kPerBlock = 512;
 
+/// Of the way to the mean of the neighbours' shifts: what is rough in the least squares of the
+/// distance tilts faces more than it brings them nearer.
+constexpr double kSmoothing = 0.6;
+
 /// A quadrature of the second degree: barycentric coordinates of equal weight.
 constexpr double kNear = 2.0 / 3.0, kFar = 1.0 / 6.0;
 constexpr std::array<std::array<double, 3>, 3> kSamples{
@@ -53,26 +57,10 @@ class Fitter {
         if (lumped[v] > 0.0) shift[v] += (right[v] - product[v]) / lumped[v];
       }
     }
-    move(smoothed(shift));
+    move(smoothed(table_, shift, kSmoothing));
   }
 
  private:
-  /// Half-way to the mean of the neighbours' shifts: what is rough in the least squares of the
-  /// distance tilts faces more than it brings them nearer.
-  [[nodiscard]] std::vector<double> smoothed(const std::vector<double>& shift) const {
-    std::vector<double> smooth = shift;
-    for (std::uint32_t v = 0; v < shift.size(); ++v) {
-      double sum = 0.0;
-      int count = 0;
-      table_.for_each_neighbor(v, [&](std::uint32_t w) {
-        sum += shift[w];
-        ++count;
-      });
-      if (count > 0) smooth[v] = 0.4 * shift[v] + 0.6 * sum / count;
-    }
-    return smooth;
-  }
-
   [[nodiscard]] double area_of(std::size_t face) const {
     return 0.5 *
            glm::length(face_area_vector(table_, mesh_.positions, static_cast<std::uint32_t>(face)));

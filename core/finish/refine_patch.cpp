@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/finish/corner_table.h"
+#include "core/finish/edge_changes.h"
 #include "core/finish/fill_patch.h"
 
 namespace rangezip {
@@ -58,8 +59,7 @@ class Refiner {
     for (int pass = 0; pass < kMaxFlipPasses; ++pass) {
       bool any = false;
       for (std::uint32_t c = 0; c < table_.corner_count(); ++c) {
-        if (table_.across(c) == CornerTable::kNone || c > table_.across(c)) continue;
-        if (!is_improvement(c)) continue;
+        if (!table_.names_inner_edge(c) || !is_improvement(c)) continue;
         table_.flip(c);
         any = true;
       }
@@ -70,16 +70,14 @@ class Refiner {
   /// The angles opposite to the edge add up to more than half a turn, and turning it leaves no
   /// fold.
   [[nodiscard]] bool is_improvement(std::uint32_t c) const {
-    const std::uint32_t x = table_.apex(c), y = table_.apex(table_.across(c));
-    const Vec3& a = patch_.positions[table_.vertex(c)];
-    const Vec3& b = patch_.positions[table_.head(c)];
-    const Vec3& px = patch_.positions[x];
-    const Vec3& py = patch_.positions[y];
+    const Diamond d(table_, c);
+    const std::vector<Vec3>& p = patch_.positions;
     constexpr double kWorthIt = 1e-9;  // of a cotangent: cocircular points must not turn for ever
-    if (!(cotangent(px, a, b) + cotangent(py, a, b) < -kWorthIt)) return false;
-    const Vec3 first = area_vector(a, py, px), second = area_vector(b, px, py);
-    if (!(glm::dot(first, second) > 0.0)) return false;
-    if (x < patch_.loop_size && y < patch_.loop_size && is_forbidden_(x, y)) return false;
+    if (!(cotangent(p[d.x], p[d.a], p[d.b]) + cotangent(p[d.y], p[d.a], p[d.b]) < -kWorthIt))
+      return false;
+    const DiamondAreas areas(p, d);
+    if (!(glm::dot(areas.new_a, areas.new_b) > 0.0)) return false;
+    if (d.x < patch_.loop_size && d.y < patch_.loop_size && is_forbidden_(d.x, d.y)) return false;
     return table_.is_flip_ok(c);
   }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/finish/edge_changes.h"
+#include "core/finish/feature_sides.h"
 #include "core/finish/triangle_shape.h"
 #include "core/finish/vertex_geometry.h"
 
@@ -11,7 +13,6 @@ namespace {
 constexpr int kRounds = 5;
 constexpr int kRings = 2;
 constexpr double kGain = 0.005;       // of the sine of the smallest angle
-constexpr double kCrease = 0.87;      // cosine: faces that differ by more are two sides
 constexpr double kOneSide = 0.95;     // cosine: faces of one side
 constexpr double kTurn = 0.9;         // cosine: how far a face may turn
 constexpr int kMendFrom = 2;          // rounds that only relax
@@ -116,7 +117,7 @@ class Relaxer {
   [[nodiscard]] bool is_crease(std::uint32_t c) const {
     if (table_.across(c) == CornerTable::kNone) return true;
     return !has_cosine(face_area_vector(table_, positions_, c / 3),
-                       face_area_vector(table_, positions_, table_.across(c) / 3), kCrease);
+                       face_area_vector(table_, positions_, table_.across(c) / 3), kFeatureCosine);
   }
 
   [[nodiscard]] std::optional<Vec3> middle_of_faces(std::uint32_t v) const {
@@ -137,8 +138,10 @@ class Relaxer {
     std::uint32_t worst = CornerTable::kNone;
     double most = kGain;
     table_.for_each_corner(v, [&](std::uint32_t c) {
-      if (table_.across(c) == CornerTable::kNone || !is_one_side(c)) return;
-      const double gain = gain_of_turning(c);
+      if (table_.across(c) == CornerTable::kNone) return;
+      const Diamond d(table_, c);
+      if (!is_one_side(d)) return;
+      const double gain = angle_after_flip(positions_, d) - angle_before_flip(positions_, d);
       if (gain <= most || !table_.is_flip_ok(c)) return;
       most = gain;
       worst = c;
@@ -167,9 +170,7 @@ class Relaxer {
   [[nodiscard]] double angle_after_collapse(std::uint32_t corner) const {
     const std::uint32_t v = table_.vertex(corner), target = table_.head(corner);
     double smallest = 1.0;
-    table_.for_each_corner(v, [&](std::uint32_t c) {
-      const std::uint32_t p = table_.head(c), q = table_.apex(c);
-      if (p == target || q == target) return;
+    for_each_face_after_collapse(table_, corner, [&](std::uint32_t p, std::uint32_t q) {
       const Vec3 area = area_vector(at(target), at(p), at(q));
       const bool is_right = sides_.may_face(v, area) && sides_.may_face(target, area);
       smallest =
@@ -179,20 +180,11 @@ class Relaxer {
   }
 
   /// Whether the faces of an edge, and those after turning it, all look the same way.
-  [[nodiscard]] bool is_one_side(std::uint32_t c) const {
-    const Vec3 &a = at(table_.vertex(c)), &b = at(table_.head(c)), &x = at(table_.apex(c)),
-               &y = at(table_.apex(table_.across(c)));
-    const Vec3 old_x = area_vector(a, b, x), old_y = area_vector(b, a, y);
-    const Vec3 new_a = area_vector(a, y, x), new_b = area_vector(b, x, y);
-    return has_cosine(old_x, old_y, kOneSide) && has_cosine(new_a, new_b, kOneSide) &&
-           has_cosine(new_a, old_x, kOneSide);
-  }
-
-  [[nodiscard]] double gain_of_turning(std::uint32_t c) const {
-    const Vec3 &a = at(table_.vertex(c)), &b = at(table_.head(c)), &x = at(table_.apex(c)),
-               &y = at(table_.apex(table_.across(c)));
-    return std::min(sine_of_smallest_angle(a, y, x), sine_of_smallest_angle(b, x, y)) -
-           std::min(sine_of_smallest_angle(a, b, x), sine_of_smallest_angle(b, a, y));
+  [[nodiscard]] bool is_one_side(const Diamond& d) const {
+    const DiamondAreas areas(positions_, d);
+    return has_cosine(areas.old_x, areas.old_y, kOneSide) &&
+           has_cosine(areas.new_a, areas.new_b, kOneSide) &&
+           has_cosine(areas.new_a, areas.old_x, kOneSide);
   }
 
   CornerTable& table_;

@@ -9,6 +9,7 @@
 
 #include "core/base/parallel.h"
 #include "core/finish/corner_table.h"
+#include "core/finish/edge_changes.h"
 #include "core/finish/edge_flips.h"
 #include "core/finish/edge_lengths.h"
 #include "core/finish/spikes.h"
@@ -190,12 +191,11 @@ class Remesher {
   /// Moving the half-edge's vertex into its head neither turns a face nor makes a small angle or
   /// a long edge.
   [[nodiscard]] bool keeps_shape(std::uint32_t corner, double min_angle, double longest) const {
-    const std::uint32_t target = table_.head(corner);
+    const std::uint32_t vertex = table_.vertex(corner), target = table_.head(corner);
     bool ok = true;
-    table_.for_each_corner(table_.vertex(corner), [&](std::uint32_t c) {
-      const std::uint32_t p = table_.head(c), q = table_.apex(c);
-      if (!ok || p == target || q == target) return;
-      const Vec3 before = area_vector(at(table_.vertex(c)), at(p), at(q));
+    for_each_face_after_collapse(table_, corner, [&](std::uint32_t p, std::uint32_t q) {
+      if (!ok) return;
+      const Vec3 before = area_vector(at(vertex), at(p), at(q));
       const Vec3 after = area_vector(at(target), at(p), at(q));
       ok = has_cosine(before, after, kCollapseTurn) &&
            sine_of_smallest_angle(at(target), at(p), at(q)) >= min_angle &&

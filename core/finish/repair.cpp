@@ -21,21 +21,13 @@ namespace {
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-void drop_marked(TriangleMesh& mesh, const std::vector<std::uint8_t>& marked) {
-  std::size_t kept = 0;
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    if (marked[f] == 0) mesh.triangles[kept++] = mesh.triangles[f];
-  }
-  mesh.triangles.resize(kept);
-}
-
 /// Drops every face that a pair names.
 void cut_pairs(TriangleMesh& mesh, const Pairs& pairs, FinishReport& report) {
   std::vector<std::uint8_t> marked(mesh.triangles.size(), 0);
   for (const auto& [i, j] : pairs)
     marked[i] = marked[j] = 1;
   const std::size_t before = mesh.triangles.size();
-  drop_marked(mesh, marked);
+  remove_triangles(mesh.triangles, marked);
   report.self_intersections_cut += before - mesh.triangles.size();
 }
 
@@ -59,7 +51,7 @@ void bridge(TriangleMesh& mesh, const FinishOptions& options, FinishReport& repo
     if (marked[first] == 0) --bridges;
     marked[first] = marked[first + 1] = 1;
   }
-  drop_marked(mesh, marked);
+  remove_triangles(mesh.triangles, marked);
   report.bridged_loops += bridges;
 }
 

@@ -27,6 +27,16 @@ std::uint64_t word_of(std::uint64_t number) {
   return z ^ (z >> 31U);
 }
 
+/// Calls visit(neighbour, half-edge between the two) for the edges at a vertex: for an inner one
+/// twice, with each of its half-edges.
+template <class Visit>
+void for_each_edge_at(const CornerTable& table, std::uint32_t vertex, Visit visit) {
+  table.for_each_corner(vertex, [&](std::uint32_t c) {
+    visit(table.head(c), c);
+    visit(table.apex(c), CornerTable::previous(c));
+  });
+}
+
 /// A word for each edge, such that those along a closed path add up (by exclusive or) to 0 if and
 /// only if the path parts the surface whose boundary loops are filled: 0 around every face, every
 /// hole, and along the edges of a tree, so that the others follow from those few that close the
@@ -72,16 +82,12 @@ class EdgeWords {
       if (is_reached[root] != 0 || table_.corner_of(root) == kNone) continue;
       is_reached[root] = 1;
       queue.assign(1, root);
-      const auto reach = [&](std::uint32_t vertex, std::uint32_t corner) {
-        if (is_reached[vertex] != 0) return;
-        is_reached[vertex] = 1;
-        is_in_tree_[edge_name(corner)] = 1;
-        queue.push_back(vertex);
-      };
       for (std::size_t i = 0; i < queue.size(); ++i) {
-        table_.for_each_corner(queue[i], [&](std::uint32_t c) {
-          reach(table_.head(c), c);
-          reach(table_.apex(c), CornerTable::previous(c));
+        for_each_edge_at(table_, queue[i], [&](std::uint32_t vertex, std::uint32_t corner) {
+          if (is_reached[vertex] != 0) return;
+          is_reached[vertex] = 1;
+          is_in_tree_[edge_name(corner)] = 1;
+          queue.push_back(vertex);
         });
       }
     }
@@ -174,17 +180,18 @@ class LocalSearch {
     Cycle best{.length = 2.0 * max_length};
     std::pair<std::uint32_t, std::uint32_t> closing{kNone, kNone};
     for (const auto& [a, way_a] : ways) {
-      for_each_edge(a, [&, from = a, &way = way_a](std::uint32_t b, std::uint32_t corner) {
-        const auto other = ways.find(b);
-        if (other == ways.end()) return;
-        const std::uint64_t word = way.word ^ other->second.word ^ words_[corner];
-        if (word == 0) return;
-        const double length = way.length + other->second.length + distance(from, b);
-        if (length > max_length || length >= best.length) return;
-        best.length = length;
-        best.word = word;
-        closing = {from, b};
-      });
+      for_each_edge_at(
+          table_, a, [&, from = a, &way = way_a](std::uint32_t b, std::uint32_t corner) {
+            const auto other = ways.find(b);
+            if (other == ways.end()) return;
+            const std::uint64_t word = way.word ^ other->second.word ^ words_[corner];
+            if (word == 0) return;
+            const double length = way.length + other->second.length + distance(from, b);
+            if (length > max_length || length >= best.length) return;
+            best.length = length;
+            best.word = word;
+            closing = {from, b};
+          });
     }
     if (closing.first != kNone) best.vertices = path(ways, closing.first, closing.second);
     return best;
@@ -197,18 +204,10 @@ class LocalSearch {
     std::uint32_t from = kNone;
     std::uint64_t word = 0;
   };
-  using Ways = std::map<std::uint32_t, Way>;
+  using Ways = std::map<std::uint32_t, Way>;  ///< by vertex; in order, which decides ties
 
   [[nodiscard]] double distance(std::uint32_t a, std::uint32_t b) const {
     return glm::length(mesh_.positions[a] - mesh_.positions[b]);
-  }
-
-  template <class Visit>
-  void for_each_edge(std::uint32_t vertex, Visit visit) const {
-    table_.for_each_corner(vertex, [&](std::uint32_t c) {
-      visit(table_.head(c), c);
-      visit(table_.apex(c), CornerTable::previous(c));
-    });
   }
 
   [[nodiscard]] Ways ways_from(std::uint32_t root, double max_length) const {
@@ -222,7 +221,7 @@ class LocalSearch {
       queue.pop();
       const Way way = ways[v];
       if (length > way.length) continue;
-      for_each_edge(v, [&, from = v](std::uint32_t w, std::uint32_t corner) {
+      for_each_edge_at(table_, v, [&, from = v](std::uint32_t w, std::uint32_t corner) {
         const double longer = way.length + distance(from, w);
         if (longer > max_length) return;
         const auto known = ways.find(w);
@@ -313,11 +312,9 @@ std::size_t cut_thin_handles(TriangleMesh& mesh, double max_girth) {
   IndependentWords cut_words;
   std::size_t cuts = 0;
   for (const Cycle& cycle : short_cycles(mesh, table, max_girth)) {
-    if (std::any_of(cycle.vertices.begin(), cycle.vertices.end(),
-                    [&](std::uint32_t v) { return is_touched[v] != 0; })) {
-      continue;
-    }
-    if (!cut_words.add(cycle.word)) continue;
+    const bool meets_cut = std::any_of(cycle.vertices.begin(), cycle.vertices.end(),
+                                       [&](std::uint32_t v) { return is_touched[v] != 0; });
+    if (meets_cut || !cut_words.add(cycle.word)) continue;
     for (const std::uint32_t v : cycle.vertices) {
       table.for_each_corner(v, [&](std::uint32_t c) {
         is_dropped[c / 3] = 1;
@@ -327,11 +324,7 @@ std::size_t cut_thin_handles(TriangleMesh& mesh, double max_girth) {
     }
     ++cuts;
   }
-  std::size_t kept = 0;
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    if (is_dropped[f] == 0) mesh.triangles[kept++] = mesh.triangles[f];
-  }
-  mesh.triangles.resize(kept);
+  remove_triangles(mesh.triangles, is_dropped);
   return cuts;
 }
 

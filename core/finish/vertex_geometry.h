@@ -26,6 +26,22 @@ namespace rangezip {
   return unit_or_z(sum);
 }
 
+/// The values, one a vertex, each moved by `share` of the way to the mean of its neighbours'.
+[[nodiscard]] inline std::vector<double> smoothed(const CornerTable& table,
+                                                  const std::vector<double>& values, double share) {
+  std::vector<double> smooth = values;
+  for (std::uint32_t v = 0; v < values.size(); ++v) {
+    double sum = 0.0;
+    int count = 0;
+    table.for_each_neighbor(v, [&](std::uint32_t w) {
+      sum += values[w];
+      ++count;
+    });
+    if (count > 0) smooth[v] = (1.0 - share) * values[v] + share * sum / count;
+  }
+  return smooth;
+}
+
 /// Whether a vertex may move to `target` with no face around it turning by more than 60 degrees;
 /// slivers have no direction to keep.
 [[nodiscard]] inline bool turns_no_face(const CornerTable& table,

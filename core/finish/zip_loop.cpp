@@ -59,11 +59,7 @@ void drop_unattached(const LoopShape& shape, std::vector<Triangle>& triangles) {
       any = true;
     }
     if (!any) return;
-    std::size_t kept = 0;
-    for (std::size_t f = 0; f < triangles.size(); ++f) {
-      if (dropped[f] == 0) triangles[kept++] = triangles[f];
-    }
-    triangles.resize(kept);
+    remove_triangles(triangles, dropped);
   }
 }
 

@@ -54,6 +54,17 @@ struct Expansion {
   void push(double term) {
     if (term != 0.0) terms[size++] = term;
   }
+  /// Adds any number (GROW-EXPANSION with zeros left out). The expansions here are short.
+  void grow(double carry) {
+    const std::size_t count = size;
+    size = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const TwoTerms s = exact_sum(carry, terms[i]);
+      push(s.low);
+      carry = s.high;
+    }
+    push(carry);
+  }
   [[nodiscard]] int sign() const {
     if (size == 0) return 0;
     return terms[size - 1] > 0.0 ? 1 : -1;
@@ -69,23 +80,13 @@ Expansion<2> difference(double a, double b) {
   return result;
 }
 
-/// Adds one double at a time (GROW-EXPANSION with zeros left out); the expansions here are short.
 template <std::size_t kA, std::size_t kB>
 Expansion<kA + kB> sum(const Expansion<kA>& a, const Expansion<kB>& b) {
   Expansion<kA + kB> result;
   for (std::size_t i = 0; i < a.size; ++i)
     result.push(a.terms[i]);
-  for (std::size_t j = 0; j < b.size; ++j) {
-    double carry = b.terms[j];
-    const std::size_t count = result.size;
-    result.size = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const TwoTerms s = exact_sum(carry, result.terms[i]);
-      result.push(s.low);
-      carry = s.high;
-    }
-    result.push(carry);
-  }
+  for (std::size_t j = 0; j < b.size; ++j)
+    result.grow(b.terms[j]);
   return result;
 }
 
@@ -96,16 +97,8 @@ Expansion<2 * kA * kB> product(const Expansion<kA>& a, const Expansion<kB>& b) {
   for (std::size_t i = 0; i < a.size; ++i) {
     for (std::size_t j = 0; j < b.size; ++j) {
       const TwoTerms p = exact_product(a.terms[i], b.terms[j]);
-      for (double carry : {p.low, p.high}) {
-        const std::size_t count = result.size;
-        result.size = 0;
-        for (std::size_t k = 0; k < count; ++k) {
-          const TwoTerms s = exact_sum(carry, result.terms[k]);
-          result.push(s.low);
-          carry = s.high;
-        }
-        result.push(carry);
-      }
+      result.grow(p.low);
+      result.grow(p.high);
     }
   }
   return result;

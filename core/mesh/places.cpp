@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <string>
 
+#include "core/base/disjoint_sets.h"
 #include "core/base/error.h"
 
 namespace rangezip {
@@ -23,35 +23,7 @@ Cube cube_of(const Vec3& point, double side) {
   return cube;
 }
 
-/// Number of the set of each cube after those that touch are joined. @pre `cubes` is sorted
-std::vector<std::size_t> join_touching(const std::vector<Cube>& cubes) {
-  std::vector<std::size_t> parent(cubes.size());
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
-  const auto find = [&](std::size_t i) {
-    while (parent[i] != i)
-      i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  for (std::size_t i = 0; i < cubes.size(); ++i) {
-    for (int offset = 0; offset < 27; ++offset) {
-      const Cube other{cubes[i][0] + offset % 3 - 1, cubes[i][1] + offset / 3 % 3 - 1,
-                       cubes[i][2] + offset / 9 - 1};
-      const auto found = std::lower_bound(cubes.begin(), cubes.end(), other);
-      if (found == cubes.end() || *found != other) continue;
-      const auto [low, high] =
-          std::minmax({find(i), find(static_cast<std::size_t>(found - cubes.begin()))});
-      parent[high] = low;
-    }
-  }
-  for (std::size_t i = 0; i < parent.size(); ++i)
-    parent[i] = find(i);
-  return parent;
-}
-
-}  // namespace
-
-std::vector<Place> places_of(std::span<const Vec3> points, std::span<const double> areas,
-                             double reach) {
+void check(std::span<const Vec3> points, std::span<const double> areas, double reach) {
   if (!(reach > 0.0) || !std::isfinite(reach)) {
     throw InvalidArgument("places_of: reach must be positive and finite, got " +
                           std::to_string(reach));
@@ -60,31 +32,66 @@ std::vector<Place> places_of(std::span<const Vec3> points, std::span<const doubl
     throw InvalidArgument("places_of: there must be as many areas as points, got " +
                           std::to_string(areas.size()) + " for " + std::to_string(points.size()));
   }
+}
+
+/// For each cube the number of what it makes with those that touch it, in the order of the cubes.
+/// @pre `cubes` is sorted
+std::vector<std::uint32_t> join_touching(const std::vector<Cube>& cubes) {
+  DisjointSets sets(cubes.size());
+  for (std::uint32_t i = 0; i < cubes.size(); ++i) {
+    for (int offset = 0; offset < 27; ++offset) {
+      const Cube other{cubes[i][0] + offset % 3 - 1, cubes[i][1] + offset / 3 % 3 - 1,
+                       cubes[i][2] + offset / 9 - 1};
+      const auto found = std::lower_bound(cubes.begin(), cubes.end(), other);
+      if (found != cubes.end() && *found == other)
+        sets.join(i, static_cast<std::uint32_t>(found - cubes.begin()));
+    }
+  }
+  std::vector<std::uint32_t> number(cubes.size());
+  std::uint32_t count = 0;
+  for (std::uint32_t i = 0; i < cubes.size(); ++i) {
+    const std::uint32_t first = sets.find(i);
+    number[i] = first == i ? count++ : number[first];
+  }
+  return number;
+}
+
+/// For each point the number of its place.
+std::vector<std::uint32_t> numbers_of(std::span<const Vec3> points, double reach) {
   std::vector<Cube> cubes;
   for (const Vec3& point : points)
     cubes.push_back(cube_of(point, reach));
   std::sort(cubes.begin(), cubes.end());
   cubes.erase(std::unique(cubes.begin(), cubes.end()), cubes.end());
-  const std::vector<std::size_t> set_of_cube = join_touching(cubes);
+  const std::vector<std::uint32_t> number_of_cube = join_touching(cubes);
+  std::vector<std::uint32_t> numbers;
+  for (const Vec3& point : points) {
+    const auto cube = std::lower_bound(cubes.begin(), cubes.end(), cube_of(point, reach));
+    numbers.push_back(number_of_cube[static_cast<std::size_t>(cube - cubes.begin())]);
+  }
+  return numbers;
+}
 
-  std::vector<std::size_t> set_of_point;
-  std::vector<Place> places(cubes.size());
+}  // namespace
+
+std::vector<Place> places_of(std::span<const Vec3> points, std::span<const double> areas,
+                             double reach) {
+  check(points, areas, reach);
+  if (points.empty()) return {};
+  const std::vector<std::uint32_t> numbers = numbers_of(points, reach);
+  std::vector<Place> places(*std::max_element(numbers.begin(), numbers.end()) + std::size_t{1});
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto cube = std::lower_bound(cubes.begin(), cubes.end(), cube_of(points[i], reach));
-    set_of_point.push_back(set_of_cube[static_cast<std::size_t>(cube - cubes.begin())]);
-    Place& place = places[set_of_point.back()];
+    Place& place = places[numbers[i]];
     place.center += points[i];
     place.area += areas[i];
     ++place.points;
   }
-  for (Place& place : places) {
-    if (place.points > 0) place.center /= static_cast<double>(place.points);
-  }
+  for (Place& place : places)
+    place.center /= static_cast<double>(place.points);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    Place& place = places[set_of_point[i]];
+    Place& place = places[numbers[i]];
     place.radius = std::max(place.radius, glm::length(points[i] - place.center));
   }
-  std::erase_if(places, [](const Place& place) { return place.points == 0; });
   std::stable_sort(places.begin(), places.end(),
                    [](const Place& a, const Place& b) { return a.points > b.points; });
   return places;

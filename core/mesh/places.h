@@ -13,7 +13,7 @@ struct Place {
   Vec3 center{0.0};     ///< mean of the points
   double radius = 0.0;  ///< to the farthest of them, model units
   std::size_t points = 0;
-  double area = 0.0;  ///< that they stand for, model units
+  double area = 0.0;  ///< that they stand for, square model units
 };
 
 /// Sorts points into places: two belong together if a chain of steps up to `reach` in each axis

@@ -32,6 +32,14 @@ double sampling_of(const TriangleMesh& mesh, const Triangle& triangle) {
   return std::min(longest, coarsest);
 }
 
+void remove_triangles(std::vector<Triangle>& triangles, const std::vector<std::uint8_t>& marked) {
+  std::size_t kept = 0;
+  for (std::size_t f = 0; f < triangles.size(); ++f) {
+    if (marked[f] == 0) triangles[kept++] = triangles[f];
+  }
+  triangles.resize(kept);
+}
+
 void remove_vertices(TriangleMesh& mesh, const std::vector<std::uint8_t>& marked) {
   std::vector<std::uint32_t> new_index(mesh.positions.size());
   std::uint32_t next = 0;

@@ -45,6 +45,9 @@ struct TriangleMesh {
 /// or what its three vertices remember of their sampling if that is finer.
 [[nodiscard]] double sampling_of(const TriangleMesh& mesh, const Triangle& triangle);
 
+/// Drops the marked (1) triangles, keeping the order of the others. @pre one mark per triangle
+void remove_triangles(std::vector<Triangle>& triangles, const std::vector<std::uint8_t>& marked);
+
 /// Drops the marked (1) positions, keeping the order of the others.
 /// @pre one mark per position; no triangle uses a marked one
 void remove_vertices(TriangleMesh& mesh, const std::vector<std::uint8_t>& marked);

@@ -217,7 +217,8 @@ class QuadTree {
                        [&](const PixelTriangle& t) { return fits(t); });
   }
 
-  /// What is linear over the image of a plane: the depth, or under a lens its inverse.
+  /// What is linear over the image of a plane: the depth, or under a lens its inverse. Also the way
+  /// back.
   [[nodiscard]] double linear(double depth) const {
     return image_.view().is_perspective() ? 1.0 / depth : depth;
   }
@@ -233,9 +234,8 @@ class QuadTree {
         const int a = signed_area(t[1], t[2], p), b = signed_area(t[2], t[0], p),
                   c = signed_area(t[0], t[1], p);
         if (a < 0 || b < 0 || c < 0) continue;
+        if (p == t[0] || p == t[1] || p == t[2]) continue;  // exact but for rounding
         const double depth = linear((a * corner[0] + b * corner[1] + c * corner[2]) / area);
-        const bool is_corner = p == t[0] || p == t[1] || p == t[2];  // exact but for rounding
-        if (is_corner) continue;
         if (!(std::abs(depth - image_[p]) <= options_.tolerance * image_.pixel_size(p)))
           return false;
       }
@@ -248,21 +248,6 @@ class QuadTree {
   DecimateOptions options_;
   Grid<std::uint8_t> level_;
 };
-
-/// Drops what no triangle uses.
-void remove_unused(Patch& patch) {
-  std::vector<std::uint8_t> is_used(patch.pixels.size(), 0);
-  for (const Triangle& t : patch.mesh.triangles) {
-    for (const std::uint32_t v : t)
-      is_used[v] = 1;
-  }
-  std::size_t kept = 0;
-  for (std::size_t v = 0; v < is_used.size(); ++v) {
-    if (is_used[v] != 0) patch.pixels[kept++] = patch.pixels[v];
-  }
-  patch.pixels.resize(kept);
-  remove_unused_vertices(patch.mesh);
-}
 
 }  // namespace
 
@@ -279,7 +264,7 @@ Patch decimate(const RangeImage& image, Patch patch, const DecimateOptions& opti
     for (const PixelTriangle& t : tree.triangles_of(block))
       patch.mesh.triangles.push_back({vertex_at[t[0]], vertex_at[t[1]], vertex_at[t[2]]});
   });
-  remove_unused(patch);
+  remove_unused_vertices(patch);
   return patch;
 }
 

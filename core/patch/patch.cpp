@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/disjoint_sets.h"
 #include "core/image/grid_cells.h"
 
 namespace rangezip {
@@ -126,25 +127,16 @@ class FanCleaner {
 
 /// Number of triangles in the piece that each vertex belongs to.
 std::vector<std::size_t> sizes_of_pieces(const TriangleMesh& mesh) {
-  std::vector<std::uint32_t> parent(mesh.positions.size());
-  for (std::uint32_t v = 0; v < parent.size(); ++v)
-    parent[v] = v;
-  const auto find = [&](std::uint32_t v) {
-    while (parent[v] != v)
-      v = parent[v] = parent[parent[v]];
-    return v;
-  };
+  DisjointSets pieces(mesh.positions.size());
   for (const Triangle& t : mesh.triangles) {
-    for (const std::uint32_t other : {t[1], t[2]}) {
-      const auto [low, high] = std::minmax({find(t[0]), find(other)});
-      parent[high] = low;
-    }
+    pieces.join(t[0], t[1]);
+    pieces.join(t[0], t[2]);
   }
-  std::vector<std::size_t> size(parent.size(), 0);
+  std::vector<std::size_t> size(mesh.positions.size(), 0);
   for (const Triangle& t : mesh.triangles)
-    ++size[find(t[0])];
-  for (std::uint32_t v = 0; v < parent.size(); ++v)
-    size[v] = size[find(v)];
+    ++size[pieces.find(t[0])];
+  for (std::uint32_t v = 0; v < size.size(); ++v)
+    size[v] = size[pieces.find(v)];
   return size;
 }
 
@@ -167,16 +159,33 @@ void remove_small_pieces(Patch& patch, std::size_t min_triangles) {
   }
   std::erase_if(patch.mesh.triangles,
                 [&](const Triangle& t) { return size[t[0]] < min_triangles; });
-  // Vertices of a piece go or stay together, so both lists shrink by the same rule.
+  remove_unused_vertices(patch);
+}
+
+}  // namespace
+
+void remove_unused_vertices(Patch& patch) {
+  std::vector<std::uint8_t> is_used(patch.pixels.size(), 0);
+  for (const Triangle& t : patch.mesh.triangles) {
+    for (const std::uint32_t v : t)
+      is_used[v] = 1;
+  }
   std::size_t kept = 0;
-  for (std::size_t v = 0; v < size.size(); ++v) {
-    if (size[v] >= min_triangles) patch.pixels[kept++] = patch.pixels[v];
+  for (std::size_t v = 0; v < is_used.size(); ++v) {
+    if (is_used[v] != 0) patch.pixels[kept++] = patch.pixels[v];
   }
   patch.pixels.resize(kept);
   remove_unused_vertices(patch.mesh);
 }
 
-}  // namespace
+PixelSides pixel_sides_of(const Patch& patch, const RangeImage& image) {
+  PixelSides sides;
+  for (const Pixel p : patch.pixels) {
+    const double side = image.pixel_size(p);
+    sides = {std::min(sides.smallest, side), std::max(sides.largest, side)};
+  }
+  return sides;
+}
 
 Patch patch_from_cells(const RangeImage& image, GridCells cells) {
   const Extent extent = image.extent();

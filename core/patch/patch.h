@@ -18,6 +18,17 @@ struct Patch {
                               ///< decimate(), where there are blocks of whole cells
 };
 
+/// Drops vertices that no triangle uses, with their pixels, keeping the order of the others.
+void remove_unused_vertices(Patch& patch);
+
+/// Sides of pixels at the samples of a patch, model units.
+struct PixelSides {
+  double smallest = kNoSample;  ///< of no samples
+  double largest = 0.0;         ///< the same
+};
+/// @param image that the patch was made of
+[[nodiscard]] PixelSides pixel_sides_of(const Patch& patch, const RangeImage& image);
+
 struct TriangulateOptions {
   double max_edge = kNoSample;    ///< in pixel sides; cells with a step of depth longer than
                                   ///< max_edge * sqrt(2) pixel sides stay open

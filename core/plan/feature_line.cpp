@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/solve.h"
+
 namespace rangezip {
 
 namespace {
@@ -21,9 +23,10 @@ constexpr double kVoteCosine = 0.9;   // of a pixel's own direction to that of a
 constexpr double kOnLine = 2.0;       // pixels as near take part in a line
 constexpr double kPiece = 6.0;        // length in which planes are fitted
 constexpr int kMinPixelsOfPiece = 3;  // of the crease
-constexpr double kNearest = 1.5;      // samples that take part in the planes
-constexpr double kFarthest = 6.5;     //
+constexpr double kNearest = 1.5;      // to the line, of samples that take part in the planes
+constexpr double kFarthest = 6.5;     // the same
 constexpr int kMinSamplesOfPlane = 8;
+constexpr double kMinSpread = 1e-6;   // determinant over the product of the squares: less is a line
 constexpr double kMaxResidual = 0.1;  // of the samples from their plane
 constexpr double kMaxOutlier = 0.3;   // of a piece from the line, once there is one
 constexpr std::size_t kMinPieces = 3;
@@ -150,14 +153,10 @@ struct PlaneSums {
   /// Nothing if the samples are few or lie on no plane.
   [[nodiscard]] std::optional<Vec3> plane() const {
     if (count < kMinSamplesOfPlane) return std::nullopt;
-    const Vec3 cross = glm::cross(matrix[1], matrix[2]);
-    const double determinant = glm::dot(matrix[0], cross);
-    if (!(determinant > 1e-6 * matrix[0][0] * matrix[1][1] * matrix[2][2])) return std::nullopt;
-    const Vec3 solution =
-        Vec3{glm::dot(right, cross), glm::dot(right, glm::cross(matrix[2], matrix[0])),
-             glm::dot(right, glm::cross(matrix[0], matrix[1]))} /
-        determinant;
-    const double residual2 = (squares - glm::dot(solution, right)) / count;
+    const double least = kMinSpread * matrix[0][0] * matrix[1][1] * matrix[2][2];
+    const std::optional<Vec3> solution = solve(matrix, right, least);
+    if (!solution) return std::nullopt;
+    const double residual2 = (squares - glm::dot(*solution, right)) / count;
     if (residual2 > kMaxResidual * kMaxResidual) return std::nullopt;
     return solution;
   }
@@ -177,7 +176,10 @@ struct Crossing {
 class LineFit {
  public:
   LineFit(const RangeImage& image, const Heights& heights, const std::vector<CreasePixel>& pixels)
-      : image_(image), heights_(heights), pixels_(pixels) {}
+      : image_(image),
+        heights_(heights),
+        pixels_(pixels),
+        first_(-static_cast<double>(image.extent().width + image.extent().height)) {}
 
   /// The crease along the line; nothing if there is none.
   [[nodiscard]] std::optional<FeatureLine> run(FeatureLine line) const {
@@ -196,14 +198,15 @@ class LineFit {
     return {-line.normal.y, line.normal.x};
   }
 
-  [[nodiscard]] std::vector<Crossing> crossings_along(const FeatureLine& line, double most) const {
-    // Places along the line are counted from the farthest that there can be.
-    const double first = -static_cast<double>(image_.extent().width + image_.extent().height);
-    std::vector<Piece> pieces(static_cast<std::size_t>(-2.0 * first / kPiece) + 1);
-    const auto number_of = [&](double u) { return static_cast<std::size_t>((u - first) / kPiece); };
-    const auto middle_of = [&](std::size_t i) {
-      return first + kPiece * (static_cast<double>(i) + 0.5);
-    };
+  [[nodiscard]] std::size_t number_of(double u) const {
+    return static_cast<std::size_t>((u - first_) / kPiece);
+  }
+  [[nodiscard]] double middle_of(std::size_t piece) const {
+    return first_ + kPiece * (static_cast<double>(piece) + 0.5);
+  }
+
+  [[nodiscard]] std::vector<Piece> pieces_along(const FeatureLine& line) const {
+    std::vector<Piece> pieces(number_of(-first_) + 1);
     for (const CreasePixel& pixel : pixels_) {
       if (std::abs(glm::dot(line.normal, pixel.place) - line.offset) > kOnLine) continue;
       ++pieces[number_of(glm::dot(along(line), pixel.place))].crease_pixels;
@@ -218,6 +221,12 @@ class LineFit {
         pieces[i].sides[d < 0.0 ? 0 : 1].add(d, u - middle_of(i), heights_[p]);
       }
     }
+    return pieces;
+  }
+
+  /// The creases of the pieces that have one within `most` of the line.
+  [[nodiscard]] std::vector<Crossing> crossings_along(const FeatureLine& line, double most) const {
+    const std::vector<Piece> pieces = pieces_along(line);
     std::vector<Crossing> crossings;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       if (const auto crossing = crossing_of(pieces[i], middle_of(i), most))
@@ -263,6 +272,7 @@ class LineFit {
   const RangeImage& image_;
   const Heights& heights_;
   const std::vector<CreasePixel>& pixels_;
+  double first_;  ///< where places along lines are counted from: none in the image is farther back
 };
 
 }  // namespace

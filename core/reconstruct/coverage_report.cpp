@@ -18,7 +18,8 @@ constexpr double kReach = 2.0;
 constexpr std::size_t kMinPoints = 10;
 /// A smaller place of faces is closed over what any cloud leaves out here and there.
 constexpr std::size_t kMinFaces = 10;
-/// In pixel sides or spacings. Of evenly spread points one in a thousand has no other within this.
+/// In pixel sides or spacings. Of randomly spread points one in a thousand has no other within
+/// this.
 constexpr double kSupportRadius = 1.5;
 
 double area_of_face(const TriangleMesh& mesh, const Triangle& t) {
@@ -33,7 +34,7 @@ double area_of_mesh(const TriangleMesh& mesh) {
   return area;
 }
 
-/// Drops the places with fewer points, which stand last; the number of points in them.
+/// Drops the places with fewer points, which stand last. @return how many points were in them
 std::size_t drop_scattered(std::vector<Place>& places, std::size_t min_points) {
   std::size_t dropped = 0;
   while (!places.empty() && places.back().points < min_points) {
@@ -63,30 +64,36 @@ void report_uncovered(std::span<const Vec3> points, const std::vector<std::uint8
   report.uncovered_area = total_area(report.uncovered);
 }
 
-void report_unsupported(std::span<const Vec3> points, const TriangleMesh& mesh, double radius,
-                        double pixel_size, CoverageReport& report) {
+Vec3 centroid_of(const TriangleMesh& mesh, const Triangle& t) {
+  return (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3.0;
+}
+
+/// For each face whether a point lies within `radius` of its centroid.
+std::vector<std::uint8_t> supported_faces(std::span<const Vec3> points, const TriangleMesh& mesh,
+                                          double radius) {
   Box region = bounds_of(mesh);
   region.lower -= Vec3(radius);
   region.upper += Vec3(radius);
   const PointGrid cloud(points, region, radius);
   std::vector<std::uint8_t> is_supported(mesh.triangles.size(), 0);
   constexpr std::size_t kFacesPerBlock = 4096;
-  const auto centroid = [&](std::size_t f) {
-    const Triangle& t = mesh.triangles[f];
-    return (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3.0;
-  };
   parallel_for(mesh.triangles.size(), kFacesPerBlock, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
-      cloud.for_each_near(centroid(f), radius, [&](const Vec3& offset) {
+      cloud.for_each_near(centroid_of(mesh, mesh.triangles[f]), radius, [&](const Vec3& offset) {
         if (glm::dot(offset, offset) < radius * radius) is_supported[f] = 1;
       });
     }
   });
+  return is_supported;
+}
+
+void report_unsupported(const TriangleMesh& mesh, const std::vector<std::uint8_t>& is_supported,
+                        double pixel_size, CoverageReport& report) {
   std::vector<Vec3> centroids;
   std::vector<double> areas;
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     if (is_supported[f] != 0) continue;
-    centroids.push_back(centroid(f));
+    centroids.push_back(centroid_of(mesh, mesh.triangles[f]));
     areas.push_back(area_of_face(mesh, mesh.triangles[f]));
   }
   report.unsupported = places_of(centroids, areas, kReach * pixel_size);
@@ -108,7 +115,7 @@ CoverageReport report_coverage(std::span<const Vec3> points, const TriangleMesh&
   report_uncovered(points, is_covered, area_per_point, pixel_size, report);
   if (mesh.empty()) return report;
   const double radius = kSupportRadius * std::max(pixel_size, std::sqrt(area_per_point));
-  report_unsupported(points, mesh, radius, pixel_size, report);
+  report_unsupported(mesh, supported_faces(points, mesh, radius), pixel_size, report);
   return report;
 }
 

@@ -14,16 +14,16 @@ struct CoverageReport {
   double share = 1.0;  ///< of the points that have a face within a pixel side
   std::size_t uncovered_points = 0;
   std::size_t scattered_points = 0;  ///< of these, in no place: outliers
-  double uncovered_area = 0.0;       ///< that the places stand for, model units; an estimate: every
-                                     ///< point stands for as much as the covered ones do on average
-  std::vector<Place> uncovered;      ///< such as pockets that no view can reach; largest first
-  double unsupported_area = 0.0;     ///< of faces without a point near them, model units
-  std::vector<Place> unsupported;    ///< such as holes that were closed; largest first
+  double uncovered_area = 0.0;     ///< that the places stand for, square model units; an estimate:
+                                   ///< each point stands for as much as covered ones on average
+  std::vector<Place> uncovered;    ///< such as pockets that no view can reach; largest first
+  double unsupported_area = 0.0;   ///< of the places without points, square model units
+  std::vector<Place> unsupported;  ///< such as holes that were closed; largest first
 };
 
 /// Compares points with the mesh that was made of them. A face counts as supported if a point
-/// lies within 1.5 pixel sides, or 1.5 mean spacings if that is more, of its centroid.
-/// O(points + faces).
+/// lies within 1.5 pixel sides, or 1.5 mean spacings if that is more, of its centroid. Fewer than
+/// ten points or faces together make no place. O(points + faces).
 /// @throws InvalidArgument if pixel_size is not positive and finite.
 [[nodiscard]] CoverageReport report_coverage(std::span<const Vec3> points, const TriangleMesh& mesh,
                                              double pixel_size);

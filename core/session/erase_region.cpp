@@ -88,14 +88,6 @@ FaceFlags all_faces_inside(const TriangleMesh& mesh, const View& view, const Mas
   return erased;
 }
 
-void remove_faces(TriangleMesh& mesh, const FaceFlags& erased) {
-  std::size_t kept = 0;
-  for (std::size_t face = 0; face < mesh.triangles.size(); ++face) {
-    if (erased[face] == 0) mesh.triangles[kept++] = mesh.triangles[face];
-  }
-  mesh.triangles.resize(kept);
-}
-
 }  // namespace
 
 EraseResult erase_region(TriangleMesh mesh, Rasterizer& rasterizer, const EraseRegion& command) {
@@ -105,7 +97,7 @@ EraseResult erase_region(TriangleMesh mesh, Rasterizer& rasterizer, const EraseR
   const FaceFlags erased = command.visible_only ? visible_faces(mesh, view, lasso, rasterizer)
                                                 : all_faces_inside(mesh, view, lasso);
   const std::size_t faces_before = mesh.triangles.size();
-  remove_faces(mesh, erased);
+  remove_triangles(mesh.triangles, erased);
   clean_topology(mesh);
   remove_unused_vertices(mesh);
   const std::size_t erased_faces = faces_before - mesh.triangles.size();

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <span>
 
+#include "core/base/disjoint_sets.h"
+
 namespace rangezip {
 
 namespace {
@@ -45,21 +47,6 @@ class Stars {
   std::vector<std::uint32_t> faces_;
 };
 
-std::uint32_t find_root(std::vector<std::uint32_t>& parent, std::uint32_t i) {
-  while (parent[i] != i) {
-    parent[i] = parent[parent[i]];
-    i = parent[i];
-  }
-  return i;
-}
-
-/// The lower root becomes that of both.
-void join(std::vector<std::uint32_t>& parent, std::uint32_t i, std::uint32_t j) {
-  i = find_root(parent, i);
-  j = find_root(parent, j);
-  parent[std::max(i, j)] = std::min(i, j);
-}
-
 std::size_t corner_of(const Triangle& face, std::uint32_t vertex) {
   return face[0] == vertex ? 0 : face[1] == vertex ? 1 : 2;
 }
@@ -69,8 +56,7 @@ class Fans {
  public:
   void find(const TriangleMesh& mesh, std::uint32_t vertex, std::span<const std::uint32_t> star) {
     const auto count = static_cast<std::uint32_t>(star.size());
-    parent_.resize(count);
-    std::iota(parent_.begin(), parent_.end(), 0U);
+    sets_.reset(count);
     leaving_.clear();
     arriving_.clear();
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -85,14 +71,13 @@ class Fans {
       const std::uint32_t arriving = face[(corner_of(face, vertex) + 2) % 3];
       const auto other = std::lower_bound(leaving_.begin(), leaving_.end(),
                                           std::pair<std::uint32_t, std::uint32_t>{arriving, 0});
-      if (other != leaving_.end() && other->first == arriving) join(parent_, i, other->second);
+      if (other != leaving_.end() && other->first == arriving) sets_.join(i, other->second);
     }
     sizes_.assign(count, 0);
     fans_ = 0;
     largest_ = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
-      const std::uint32_t root = find_root(parent_, i);
-      if (sizes_[root]++ == 0) ++fans_;
+      if (sizes_[sets_.find(i)]++ == 0) ++fans_;
     }
     for (std::uint32_t i = 0; i < count; ++i) {
       if (sizes_[i] > sizes_[largest_]) largest_ = i;
@@ -106,26 +91,18 @@ class Fans {
     return std::adjacent_find(leaving_.begin(), leaving_.end(), is_same) == leaving_.end() &&
            std::adjacent_find(arriving_.begin(), arriving_.end()) == arriving_.end();
   }
-  [[nodiscard]] std::uint32_t fan_of(std::uint32_t i) { return find_root(parent_, i); }
+  [[nodiscard]] std::uint32_t fan_of(std::uint32_t i) { return sets_.find(i); }
   [[nodiscard]] bool is_largest(std::uint32_t i) { return fan_of(i) == largest_; }
   [[nodiscard]] std::uint32_t size_of(std::uint32_t i) { return sizes_[fan_of(i)]; }
 
  private:
-  std::vector<std::uint32_t> parent_;
-  std::vector<std::uint32_t> sizes_;
+  DisjointSets sets_;
+  std::vector<std::uint32_t> sizes_;  ///< by the lowest place in the star
   std::vector<std::pair<std::uint32_t, std::uint32_t>> leaving_;  ///< next corner, place in star
   std::vector<std::uint32_t> arriving_;                           ///< previous corners
   std::uint32_t fans_ = 0;
   std::uint32_t largest_ = 0;
 };
-
-void remove_marked(TriangleMesh& mesh, const std::vector<std::uint8_t>& marked) {
-  std::size_t kept = 0;
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    if (marked[f] == 0) mesh.triangles[kept++] = mesh.triangles[f];
-  }
-  mesh.triangles.resize(kept);
-}
 
 bool has_marked_corner(const Triangle& face, const std::vector<std::uint8_t>& marked) {
   return !marked.empty() && std::any_of(face.begin(), face.end(), [&](std::uint32_t v) {
@@ -158,7 +135,7 @@ std::size_t remove_small_fans(TriangleMesh& mesh, const Stars& stars,
     for (const std::uint32_t v : mesh.triangles[f])
       touched[v] = 1;
   }
-  remove_marked(mesh, removed);
+  remove_triangles(mesh.triangles, removed);
   return count;
 }
 
@@ -216,21 +193,20 @@ std::size_t split_fans(TriangleMesh& mesh, const Stars& stars, std::vector<std::
 void drop_small_components(TriangleMesh& mesh, const std::vector<std::uint8_t>& touched,
                            std::size_t min_component, const std::vector<std::uint8_t>& rim,
                            CleanUpReport& report) {
-  std::vector<std::uint32_t> parent(mesh.positions.size());
-  std::iota(parent.begin(), parent.end(), 0U);
+  DisjointSets pieces(mesh.positions.size());
   for (const Triangle& face : mesh.triangles) {
-    join(parent, face[0], face[1]);
-    join(parent, face[1], face[2]);
+    pieces.join(face[0], face[1]);
+    pieces.join(face[1], face[2]);
   }
   std::vector<std::uint32_t> faces(mesh.positions.size(), 0);
   for (const Triangle& face : mesh.triangles)
-    ++faces[find_root(parent, face[0])];
+    ++faces[pieces.find(face[0])];
   for (std::uint32_t v = 0; v < rim.size(); ++v) {  // the rest of the piece is not known
-    if (rim[v] != 0) faces[find_root(parent, v)] += static_cast<std::uint32_t>(min_component);
+    if (rim[v] != 0) faces[pieces.find(v)] += static_cast<std::uint32_t>(min_component);
   }
   std::vector<std::uint8_t> is_touched(mesh.positions.size(), 0);
   for (std::uint32_t v = 0; v < touched.size(); ++v) {
-    if (touched[v] != 0) is_touched[find_root(parent, v)] = 1;
+    if (touched[v] != 0) is_touched[pieces.find(v)] = 1;
   }
   std::vector<std::uint8_t> is_small(mesh.positions.size(), 0);
   for (std::size_t v = 0; v < faces.size(); ++v) {
@@ -241,7 +217,7 @@ void drop_small_components(TriangleMesh& mesh, const std::vector<std::uint8_t>& 
   }
   if (report.dropped_components == 0) return;
   std::erase_if(mesh.triangles,
-                [&](const Triangle& face) { return is_small[find_root(parent, face[0])] != 0; });
+                [&](const Triangle& face) { return is_small[pieces.find(face[0])] != 0; });
 }
 
 }  // namespace

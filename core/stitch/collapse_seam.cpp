@@ -134,11 +134,7 @@ std::size_t collapse_short_seam_edges(TriangleMesh& mesh, const std::vector<std:
       Collapser(sheet, in_sheet(seam), in_sheet(movable), min_length).collapse_all();
   if (count == 0) return 0;
 
-  std::size_t kept = 0;
-  for (std::size_t f = 0; f < cut.size(); ++f) {
-    if (cut[f] == 0) mesh.triangles[kept++] = mesh.triangles[f];
-  }
-  mesh.triangles.resize(kept);
+  remove_triangles(mesh.triangles, cut);
   const std::vector<Triangle> faces = faces_in_whole(sheet);
   mesh.triangles.insert(mesh.triangles.end(), faces.begin(), faces.end());
   return count;

@@ -1,10 +1,14 @@
 #include "core/stitch/lost_pixels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <span>
 
 #include "core/image/range_image.h"
+#include "core/stitch/pixel_box.h"
 
 namespace rangezip {
 
@@ -15,22 +19,6 @@ constexpr double kDepthTolerance = 3.0;
 
 /// Faces steeper than this (tangent) get no wider tolerance.
 constexpr double kMostSlope = 4.0;
-
-/// Pixels first..last, both included; empty if first > last.
-struct PixelBox {
-  Pixel first{std::numeric_limits<int>::max(), std::numeric_limits<int>::max()};
-  Pixel last{std::numeric_limits<int>::min(), std::numeric_limits<int>::min()};
-
-  [[nodiscard]] bool is_empty() const { return first.x > last.x || first.y > last.y; }
-  void add(const PixelBox& box) {
-    first = {std::min(first.x, box.first.x), std::min(first.y, box.first.y)};
-    last = {std::max(last.x, box.last.x), std::max(last.y, box.last.y)};
-  }
-  [[nodiscard]] PixelBox within(const PixelBox& box) const {
-    return {{std::max(first.x, box.first.x), std::max(first.y, box.first.y)},
-            {std::min(last.x, box.last.x), std::min(last.y, box.last.y)}};
-  }
-};
 
 /// One face in the image.
 struct FaceImage {
@@ -115,34 +103,25 @@ struct Place {
   double tolerance = 0.0;
 };
 
+/// What is left of the places of faces that are gone.
 class LostPixels {
  public:
   LostPixels(const SeenMesh& before, const FaceChanges& changes, const View& view);
 
-  /// Forgets the places that faces of the mesh are close to.
-  void cover_by(const SeenMesh& after, std::span<const std::uint32_t> faces);
-  void cover_by_all(const SeenMesh& after);
+  /// Forgets the places that one of the faces covers at about their depth.
+  void cover_by(std::span<const Triangle> faces, const ImagePlane& image);
 
-  [[nodiscard]] bool empty() const { return places_.empty(); }
   [[nodiscard]] std::vector<Pixel> pixels() const;
 
  private:
+  /// Of the faces over a pixel; those in between are not asked.
   struct Depths {
     double nearest = kNoSample;
     double farthest = -kNoSample;
+    friend bool operator==(const Depths&, const Depths&) = default;
   };
-  [[nodiscard]] std::size_t index(Pixel p) const {
-    return static_cast<std::size_t>(p.y - box_.first.y) *
-               static_cast<std::size_t>(box_.last.x - box_.first.x + 1) +
-           static_cast<std::size_t>(p.x - box_.first.x);
-  }
-  void start();
-  void add(const FaceImage& face);
-  void finish();
 
-  PixelBox box_;
   std::vector<Place> places_;
-  std::vector<Depths> depths_;  ///< of the new surface, per pixel of the box
 };
 
 LostPixels::LostPixels(const SeenMesh& before, const FaceChanges& changes, const View& view) {
@@ -160,45 +139,26 @@ LostPixels::LostPixels(const SeenMesh& before, const FaceChanges& changes, const
   }
 }
 
-void LostPixels::start() {
-  box_ = {};
+void LostPixels::cover_by(std::span<const Triangle> faces, const ImagePlane& image) {
+  if (places_.empty()) return;
+  PixelBox box;
   for (const Place& place : places_)
-    box_.add({place.pixel, place.pixel});
-  depths_.assign(places_.empty() ? 0 : index(box_.last) + 1, {});
-}
-
-void LostPixels::add(const FaceImage& face) {
-  if (!face.is_visible()) return;
-  face.for_each_pixel(box_, [&](Pixel pixel, double depth) {
-    Depths& depths = depths_[index(pixel)];
-    depths.nearest = std::min(depths.nearest, depth);
-    depths.farthest = std::max(depths.farthest, depth);
-  });
-}
-
-void LostPixels::finish() {
+    box.add(place.pixel);
+  Grid<Depths> depths(box.extent());
+  for (const Triangle& triangle : faces) {
+    const FaceImage face(triangle, image);
+    if (!face.is_visible()) continue;
+    face.for_each_pixel(box, [&](Pixel pixel, double depth) {
+      Depths& here = depths[box.local(pixel)];
+      here.nearest = std::min(here.nearest, depth);
+      here.farthest = std::max(here.farthest, depth);
+    });
+  }
   std::erase_if(places_, [&](const Place& place) {
-    const Depths& depths = depths_[index(place.pixel)];
-    return std::abs(depths.nearest - place.depth) <= place.tolerance ||
-           std::abs(depths.farthest - place.depth) <= place.tolerance;
+    const Depths& here = depths[box.local(place.pixel)];
+    return std::abs(here.nearest - place.depth) <= place.tolerance ||
+           std::abs(here.farthest - place.depth) <= place.tolerance;
   });
-}
-
-void LostPixels::cover_by(const SeenMesh& after, std::span<const std::uint32_t> faces) {
-  if (places_.empty()) return;
-  start();
-  for (const std::uint32_t f : faces)
-    add(FaceImage(after.mesh.triangles[f], after.image));
-  finish();
-}
-
-/// What stayed may lie under what is gone, where the surface folds in the image.
-void LostPixels::cover_by_all(const SeenMesh& after) {
-  if (places_.empty()) return;
-  start();
-  for (const Triangle& face : after.mesh.triangles)
-    add(FaceImage(face, after.image));
-  finish();
 }
 
 std::vector<Pixel> LostPixels::pixels() const {
@@ -216,8 +176,12 @@ std::vector<Pixel> LostPixels::pixels() const {
 std::vector<Pixel> find_lost_pixels(const SeenMesh& before, const SeenMesh& after,
                                     const FaceChanges& changes, const View& view) {
   LostPixels lost(before, changes, view);
-  lost.cover_by(after, changes.made);
-  lost.cover_by_all(after);
+  std::vector<Triangle> made;
+  for (const std::uint32_t f : changes.made)
+    made.push_back(after.mesh.triangles[f]);
+  // Those cover nearly all; what stayed may lie under what is gone, where the surface folds.
+  lost.cover_by(made, after.image);
+  lost.cover_by(after.mesh.triangles, after.image);
   return lost.pixels();
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/mesh/coverage.h"
+#include "core/stitch/pixel_box.h"
 
 namespace rangezip {
 
@@ -35,11 +36,13 @@ void add_inner_places(const SeenMesh& before, const Triangle& face, double spaci
     places.pixels.push_back(
         {static_cast<int>(std::floor(image.x + 0.5)), static_cast<int>(std::floor(image.y + 0.5))});
   };
-  if (n == 1) add(Vec3(1.0 / 3.0));
-  for (int i = 0; n > 1 && i <= n; ++i) {
-    for (int j = 0; i + j <= n; ++j) {
-      if (i < n && j < n && i + j > 0) add(Vec3{i, j, n - i - j} / static_cast<double>(n));
-    }
+  if (n == 1) {
+    add(Vec3(1.0 / 3.0));
+    return;
+  }
+  for (int i = 0; i < n; ++i) {
+    for (int j = i > 0 ? 0 : 1; j < n && i + j <= n; ++j)  // without the corners
+      add(Vec3{i, j, n - i - j} / static_cast<double>(n));
   }
 }
 
@@ -79,23 +82,17 @@ class NewVertices {
       }
     }
     if (vertices.empty()) return;
-    first_ = nearest_pixel(after.image.points[vertices.front()]);
-    Pixel last = first_;
-    for (const std::uint32_t v : vertices) {
-      const Pixel p = nearest_pixel(after.image.points[v]);
-      first_ = {std::min(first_.x, p.x), std::min(first_.y, p.y)};
-      last = {std::max(last.x, p.x), std::max(last.y, p.y)};
-    }
-    at_.reset({last.x - first_.x + 1, last.y - first_.y + 1}, kNone);
-    for (const std::uint32_t v : vertices) {
-      const Pixel p = nearest_pixel(after.image.points[v]);
-      at_[{p.x - first_.x, p.y - first_.y}] = v;
-    }
+    for (const std::uint32_t v : vertices)
+      box_.add(nearest_pixel(after.image.points[v]));
+    at_.reset(box_.extent(), kNone);
+    for (const std::uint32_t v : vertices)
+      at_[box_.local(nearest_pixel(after.image.points[v]))] = v;
   }
 
   /// Whether the one at the pixel is within `distance` of the place.
   [[nodiscard]] bool has_near(const Vec3& place, Pixel pixel, double distance) const {
-    const Pixel local{pixel.x - first_.x, pixel.y - first_.y};
+    if (at_.extent().count() == 0) return false;
+    const Pixel local = box_.local(pixel);
     if (!at_.extent().contains(local) || at_[local] == kNone) return false;
     const Vec3 away = mesh_.positions[at_[local]] - place;
     return glm::dot(away, away) <= distance * distance;
@@ -104,7 +101,7 @@ class NewVertices {
  private:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   const TriangleMesh& mesh_;
-  Pixel first_;
+  PixelBox box_;
   Grid<std::uint32_t> at_;
 };
 

@@ -28,7 +28,7 @@ struct GridBox {
   }
 };
 
-GridBox box_around(Pixel p, int margin) {
+GridBox grid_box_around(Pixel p, int margin) {
   GridBox box;
   box.add(grid_point({p.x - margin, p.y - margin}));
   box.add(grid_point({p.x + margin, p.y + margin}));
@@ -123,7 +123,7 @@ std::vector<std::uint8_t> faces_that_meet(const TileMask& mask, const TriangleMe
 TileMask mask_around(std::span<const Pixel> pixels, int margin, Extent image) {
   TileMask mask(image);
   for (const Pixel p : pixels)
-    mask.mark(box_around(p, margin));
+    mask.mark(grid_box_around(p, margin));
   mask.close();
   return mask;
 }
@@ -141,6 +141,22 @@ TileMask mask_of_faces_in(const TileMask& mask, const TriangleMesh& mesh, const 
   return around;
 }
 
+/// Marks the corners of the faces that the part is about; those around get one ring of faces more.
+std::vector<std::uint8_t> inner_vertices(const TriangleMesh& whole, const View& view,
+                                         std::span<const Pixel> pixels, int margin) {
+  const ImagePlane image = project_to_image(whole.positions, view);
+  const TileMask near = mask_around(pixels, margin, view.extent());
+  const std::vector<std::uint8_t> meets =
+      faces_that_meet(mask_of_faces_in(near, whole, image, view.extent()), whole, image);
+  std::vector<std::uint8_t> is_inner(whole.positions.size(), 0);
+  for (std::size_t f = 0; f < meets.size(); ++f) {
+    if (meets[f] == 0) continue;
+    for (const std::uint32_t v : whole.triangles[f])
+      is_inner[v] = 1;
+  }
+  return is_inner;
+}
+
 void remove_gone_faces(TriangleMesh& whole, const MeshPart& part, const FaceChanges& changes) {
   if (changes.gone.empty()) return;
   std::size_t kept = part.face_in_whole[changes.gone.front()];
@@ -155,21 +171,42 @@ void remove_gone_faces(TriangleMesh& whole, const MeshPart& part, const FaceChan
   whole.triangles.resize(kept);
 }
 
+/// Moves the vertices of the part, adds new ones, and marks those that are not used any more.
+/// @return the number in the whole of each vertex of `changed`; of unused new ones kUnused
+std::vector<std::uint32_t> put_back_vertices(TriangleMesh& whole, const MeshPart& part,
+                                             const TriangleMesh& changed,
+                                             std::vector<std::uint8_t>& is_dropped) {
+  std::vector<std::uint8_t> is_used(changed.positions.size(), 0);
+  for (const Triangle& face : changed.triangles) {
+    for (const std::uint32_t v : face)
+      is_used[v] = 1;
+  }
+  is_dropped.assign(whole.positions.size(), 0);
+  const bool has_sources =
+      !changed.sources.empty() && (whole.positions.empty() || !whole.sources.empty());
+  std::vector<std::uint32_t> in_whole = part.vertex_in_whole;
+  for (std::size_t v = 0; v < changed.positions.size(); ++v) {
+    if (v < in_whole.size()) {
+      whole.positions[in_whole[v]] = changed.positions[v];
+      if (has_sources) whole.sources[in_whole[v]] = changed.sources[v];
+      is_dropped[in_whole[v]] = is_used[v] != 0 ? 0 : 1;
+    } else if (is_used[v] != 0) {
+      in_whole.push_back(static_cast<std::uint32_t>(whole.positions.size()));
+      whole.positions.push_back(changed.positions[v]);
+      if (has_sources) whole.sources.push_back(changed.sources[v]);
+    } else {
+      in_whole.push_back(kUnused);
+    }
+  }
+  is_dropped.resize(whole.positions.size(), 0);
+  return in_whole;
+}
+
 }  // namespace
 
 MeshPart cut_out_part(const TriangleMesh& whole, const View& view, std::span<const Pixel> pixels,
                       int margin) {
-  const ImagePlane image = project_to_image(whole.positions, view);
-  const TileMask near = mask_around(pixels, margin, view.extent());
-  const std::vector<std::uint8_t> meets =
-      faces_that_meet(mask_of_faces_in(near, whole, image, view.extent()), whole, image);
-  std::vector<std::uint8_t> is_inner(whole.positions.size(), 0);
-  for (std::size_t f = 0; f < meets.size(); ++f) {
-    if (meets[f] == 0) continue;
-    for (const std::uint32_t v : whole.triangles[f])
-      is_inner[v] = 1;
-  }
-
+  const std::vector<std::uint8_t> is_inner = inner_vertices(whole, view, pixels, margin);
   MeshPart part;
   std::vector<std::uint32_t> local(whole.positions.size(), kUnused);
   for (std::uint32_t f = 0; f < whole.triangles.size(); ++f) {
@@ -196,30 +233,8 @@ MeshPart cut_out_part(const TriangleMesh& whole, const View& view, std::span<con
 
 void put_back(TriangleMesh& whole, const MeshPart& part, const TriangleMesh& changed,
               const FaceChanges& changes) {
-  std::vector<std::uint8_t> is_used(changed.positions.size(), 0);
-  for (const Triangle& face : changed.triangles) {
-    for (const std::uint32_t v : face)
-      is_used[v] = 1;
-  }
-  std::vector<std::uint8_t> is_dropped(whole.positions.size(), 0);
-  const bool has_sources =
-      !changed.sources.empty() && (whole.positions.empty() || !whole.sources.empty());
-  std::vector<std::uint32_t> in_whole = part.vertex_in_whole;
-  for (std::size_t v = 0; v < changed.positions.size(); ++v) {
-    if (v < in_whole.size()) {
-      whole.positions[in_whole[v]] = changed.positions[v];
-      if (has_sources) whole.sources[in_whole[v]] = changed.sources[v];
-      is_dropped[in_whole[v]] = is_used[v] != 0 ? 0 : 1;
-    } else if (is_used[v] != 0) {
-      in_whole.push_back(static_cast<std::uint32_t>(whole.positions.size()));
-      whole.positions.push_back(changed.positions[v]);
-      if (has_sources) whole.sources.push_back(changed.sources[v]);
-    } else {
-      in_whole.push_back(kUnused);
-    }
-  }
-  is_dropped.resize(whole.positions.size(), 0);
-
+  std::vector<std::uint8_t> is_dropped;
+  const std::vector<std::uint32_t> in_whole = put_back_vertices(whole, part, changed, is_dropped);
   remove_gone_faces(whole, part, changes);
   for (const std::uint32_t f : changes.made) {
     const Triangle& face = changed.triangles[f];

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "core/stitch/pixel_box.h"
+
 namespace rangezip {
 
 namespace {
@@ -21,11 +23,9 @@ double limited_stretch(const glm::dvec2& slope) {
 PatchSheet::PatchSheet(const PatchScan& scan, int radius) : image_(&scan.image), radius_(radius) {
   const std::vector<Pixel>& pixels = scan.patch.pixels;
   if (pixels.empty()) return;
-  first_ = last_ = pixels.front();
-  for (const Pixel p : pixels) {
-    first_ = {std::min(first_.x, p.x), std::min(first_.y, p.y)};
-    last_ = {std::max(last_.x, p.x), std::max(last_.y, p.y)};
-  }
+  const PixelBox box = box_around(pixels);
+  first_ = box.first;
+  last_ = box.last;
   const Extent extent = image_->extent();
   const int margin = radius + 1;
   origin_ = {std::max(0, first_.x - margin), std::max(0, first_.y - margin)};

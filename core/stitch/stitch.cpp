@@ -22,6 +22,18 @@ namespace rangezip {
 
 namespace {
 
+/// Where the old surface was a face must be within this many pixel sides.
+constexpr double kLostDistance = 1.0;
+
+/// From a hole the patch is withdrawn by this many pixels, from the seventh time on by twice as
+/// many each time; after the last one altogether.
+constexpr int kFirstWithdrawal = 2;
+constexpr int kEqualWithdrawals = 6;
+constexpr int kWithdrawals = 10;
+
+/// The part is cut out this much wider than the seam can be, pixels.
+constexpr int kPartMargin = 2;
+
 void check_indices(const TriangleMesh& mesh) {
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     const Triangle& t = mesh.triangles[f];
@@ -33,24 +45,6 @@ void check_indices(const TriangleMesh& mesh) {
     }
   }
 }
-
-/// Of the samples of the patch, model units.
-double smallest_pixel_side(const PatchScan& scan) {
-  double side = kNoSample;
-  for (const Pixel p : scan.patch.pixels)
-    side = std::min(side, scan.image.pixel_size(p));
-  return side;
-}
-
-double largest_pixel_side(const PatchScan& scan) {
-  double side = 0.0;
-  for (const Pixel p : scan.patch.pixels)
-    side = std::max(side, scan.image.pixel_size(p));
-  return side;
-}
-
-/// Where the old surface was a face must be within this many pixel sides.
-constexpr double kLostDistance = 1.0;
 
 /// One way of joining a patch to the part of the mesh around it.
 class Attempt {
@@ -102,7 +96,8 @@ void Attempt::join() {
   clean();
   if (is_zipper && options_.collapse_ratio > 0.0) {
     report_.collapsed_edges = collapse_short_seam_edges(
-        joint_.mesh, joint_.seam, options_.collapse_ratio * smallest_pixel_side(scan_));
+        joint_.mesh, joint_.seam,
+        options_.collapse_ratio * pixel_sides_of(scan_.patch, scan_.image).smallest);
   }
 }
 
@@ -150,11 +145,7 @@ void Attempt::remove(std::span<const std::uint32_t> faces, std::span<const FaceO
     for (const std::uint32_t v : joint_.mesh.triangles[f])
       joint_.touched[v] = 1;
   }
-  std::size_t kept = 0;
-  for (std::size_t f = 0; f < is_removed.size(); ++f) {
-    if (is_removed[f] == 0) joint_.mesh.triangles[kept++] = joint_.mesh.triangles[f];
-  }
-  joint_.mesh.triangles.resize(kept);
+  remove_triangles(joint_.mesh.triangles, is_removed);
 }
 
 /// Every round removes a face at least, so there is a last one. What is left of faces that did not
@@ -197,7 +188,7 @@ std::vector<Pixel> Attempt::lost_pixels() {
   const SeenMesh before{part_.mesh, image_};
   const SeenMesh after{joint_.mesh, joint_.image};
   std::vector<Pixel> lost = find_lost_pixels(before, after, changes_, view);
-  const double distance = kLostDistance * largest_pixel_side(scan_);
+  const double distance = kLostDistance * pixel_sides_of(scan_.patch, scan_.image).largest;
   const std::vector<Pixel> places = find_lost_places(before, after, changes_, distance);
   lost.insert(lost.end(), places.begin(), places.end());
   return lost;
@@ -229,15 +220,6 @@ std::size_t grid_triangle_count(const Patch& patch) {
   return count;
 }
 
-/// Where a hole is in the way the patch is withdrawn from it by this many pixels, from the sixth
-/// time on by twice as many each time; after the last one altogether.
-constexpr int kFirstWithdrawal = 2;
-constexpr int kEqualWithdrawals = 5;
-constexpr int kWithdrawals = 10;
-
-/// The part is cut out this much wider than the seam can be, pixels.
-constexpr int kPartMargin = 2;
-
 }  // namespace
 
 StitchResult stitch(TriangleMesh mesh, const Scan& scan, const StitchOptions& options) {
@@ -249,7 +231,7 @@ StitchResult stitch(TriangleMesh mesh, const Scan& scan, const StitchOptions& op
   const ImagePlane image = project_to_image(part.mesh.positions, view);
   Patch patch = scan.patch;
   int radius = kFirstWithdrawal;
-  for (int withdrawals = 0; !patch.mesh.empty(); ++withdrawals) {
+  for (int round = 1; !patch.mesh.empty(); ++round) {
     Attempt attempt(part, image, PatchScan(scan, patch, part.face_in_whole), options);
     attempt.join();
     attempt.roll_back_crossings();
@@ -262,9 +244,9 @@ StitchResult stitch(TriangleMesh mesh, const Scan& scan, const StitchOptions& op
       return {std::move(mesh), report,
               record_of_whole(attempt.record(), part, patch.pixels, scan.patch)};
     }
-    if (withdrawals == kWithdrawals) break;
+    if (round > kWithdrawals) break;
     patch = withdraw_locally(scan.image, patch, lost, radius);
-    if (withdrawals >= kEqualWithdrawals) radius *= 2;
+    if (round >= kEqualWithdrawals) radius *= 2;
   }
   StitchReport report;
   report.withdrawn_faces = grid_triangle_count(scan.patch);

@@ -63,8 +63,10 @@ struct StitchResult {
 /// - it is oriented and manifold (else nothing is stitched; no input is known for which that is);
 /// - it has no self-intersection and no face without area (exact). A face that would cross another
 ///   is rolled back, those of the seam first, then those of the patch;
-/// - every pixel that showed the surface shows it (find_lost_pixels()): where a hole would appear
-///   the patch is withdrawn from it by 2 pixels, as often as it takes, at last altogether;
+/// - every pixel that showed the surface shows it (find_lost_pixels()), and every place of it has a
+///   face within a pixel side (find_lost_places()): where a hole would appear the patch is
+///   withdrawn from it by 2 pixels or as many as reach it, as often as it takes, later by more, at
+///   last altogether;
 /// - faces whose image is nowhere near the patch are the same, bit by bit.
 ///
 /// clear_and_fill removes every front-facing old face that overlaps a patch cell within the band

@@ -8,6 +8,7 @@
 
 #include "core/base/grid.h"
 #include "core/raster/rasterizer.h"
+#include "core/stitch/pixel_box.h"
 
 namespace rangezip {
 
@@ -16,11 +17,11 @@ namespace {
 /// Counts places in boxes of pixels by a table of sums over all boxes from the lower left corner.
 class PlaceCounter {
  public:
-  /// @param first, last corners of the box within which places are counted
-  PlaceCounter(std::span<const Pixel> places, Pixel first, Pixel last)
-      : first_(first), sums_({last.x - first.x + 2, last.y - first.y + 2}, 0) {
+  /// @param box within which places are counted
+  PlaceCounter(std::span<const Pixel> places, const PixelBox& box)
+      : first_(box.first), sums_({box.extent().width + 1, box.extent().height + 1}, 0) {
     for (const Pixel p : places) {
-      const Pixel local{p.x - first.x + 1, p.y - first.y + 1};
+      const Pixel local{p.x - first_.x + 1, p.y - first_.y + 1};
       if (local.x >= 1 && local.y >= 1 && sums_.extent().contains(local)) ++sums_[local];
     }
     for (int y = 1; y < sums_.extent().height; ++y) {
@@ -45,22 +46,11 @@ class PlaceCounter {
   Grid<std::uint32_t> sums_;
 };
 
-/// The box around some pixels. @pre there are some
-std::pair<Pixel, Pixel> box_of(std::span<const Pixel> pixels) {
-  Pixel first = pixels.front();
-  Pixel last = first;
-  for (const Pixel p : pixels) {
-    first = {std::min(first.x, p.x), std::min(first.y, p.y)};
-    last = {std::max(last.x, p.x), std::max(last.y, p.y)};
-  }
-  return {first, last};
-}
-
 /// Takes the triangles near places out of the cells; false if there are none.
-bool clear_near(GridCells& cells, Pixel first, Pixel last, const PlaceCounter& places, int radius) {
+bool clear_near(GridCells& cells, const PixelBox& box, const PlaceCounter& places, int radius) {
   bool any = false;
-  for (int y = first.y; y < last.y; ++y) {
-    for (Pixel cell{first.x, y}; cell.x < last.x; ++cell.x) {
+  for (int y = box.first.y; y < box.last.y; ++y) {
+    for (Pixel cell{box.first.x, y}; cell.x < box.last.x; ++cell.x) {
       for (const std::uint8_t which : {kLowerTriangle, kUpperTriangle}) {
         if ((cells[cell] & which) == 0) continue;
         const std::array<Pixel, 3> corners = grid_triangle(cell, cells[cell], which);
@@ -81,11 +71,10 @@ bool clear_near(GridCells& cells, Pixel first, Pixel last, const PlaceCounter& p
 Patch withdraw_near(const RangeImage& image, const Patch& patch, std::span<const Pixel> places,
                     int radius) {
   if (patch.pixels.empty()) return patch;
-  const auto [first, last] = box_of(patch.pixels);
-  const PlaceCounter counter(places, {first.x - radius, first.y - radius},
-                             {last.x + radius, last.y + radius});
+  const PixelBox box = box_around(patch.pixels);
+  const PlaceCounter counter(places, box.widened(radius));
   GridCells cells = patch.cells;
-  if (!clear_near(cells, first, last, counter, radius)) return patch;
+  if (!clear_near(cells, box, counter, radius)) return patch;
   Patch rest = patch_from_cells(image, std::move(cells));
   if (patch.mesh.sources.empty()) return rest;
   for (const std::uint32_t v : numbers_in(patch, rest.pixels))
@@ -96,8 +85,7 @@ Patch withdraw_near(const RangeImage& image, const Patch& patch, std::span<const
 Patch withdraw_locally(const RangeImage& image, const Patch& patch, std::span<const Pixel> places,
                        int radius) {
   if (patch.pixels.empty()) return patch;
-  const auto [first, last] = box_of(patch.pixels);
-  const PlaceCounter of_patch(patch.pixels, first, last);
+  const PlaceCounter of_patch(patch.pixels, box_around(patch.pixels));
   const int farthest = 2 * kMaxRasterExtent;  // places farther than this can wait for others
   Patch rest = patch;
   std::vector<Pixel> left(places.begin(), places.end());

@@ -229,11 +229,7 @@ void Zipper::join() {
     const auto local = static_cast<std::size_t>(vertex.idx());
     if (sheet_.mesh.is_boundary(vertex)) joint_.touched[sheet_.vertex_in_whole[local]] = 1;
   }
-  std::size_t kept = 0;
-  for (std::size_t f = 0; f < cut_.size(); ++f) {
-    if (cut_[f] == 0) joint_.mesh.triangles[kept++] = joint_.mesh.triangles[f];
-  }
-  joint_.mesh.triangles.resize(kept);
+  remove_triangles(joint_.mesh.triangles, cut_);
   const std::vector<Triangle> faces = faces_beside_patch();
   report_.removed_faces += sheet_.mesh.n_faces() - faces.size();
   joint_.mesh.triangles.insert(joint_.mesh.triangles.end(), faces.begin(), faces.end());

@@ -24,7 +24,7 @@ std::uint32_t face_below(const TriangleMesh& mesh, Pixel pixel) {
 }
 
 std::optional<SurfacePath> line_over(const TriangleMesh& mesh, Pixel from, Pixel to) {
-  const SeenMesh seen(mesh, kView);
+  const ViewedMesh seen(mesh, kView);
   return follow_line(seen, {from, face_below(mesh, from)}, {to, face_below(mesh, to)});
 }
 
@@ -148,7 +148,7 @@ TEST_CASE("a line does not arrive over a gap, on another sheet, or from a face b
   CHECK_FALSE(line_over(mesh, {17, 14}, {20, 14}));
   const TriangleMesh sheets = test::merged(test::lattice({10.0, 10.0}, 8, 8, 1.0, 20.0),
                                            test::lattice({10.0, 10.0}, 8, 8, 1.0, 25.0));
-  const SeenMesh seen(sheets, kView);
+  const ViewedMesh seen(sheets, kView);
   const std::uint32_t start = face_below(sheets, {12, 12});
   const std::uint32_t end = face_below(sheets, {13, 14});
   CHECK(follow_line(seen, {{12, 12}, start}, {{13, 14}, end}));

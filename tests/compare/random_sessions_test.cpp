@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/base/parallel.h"
+#include "tests/support/session_judge.h"
 
 using namespace rangezip;
 

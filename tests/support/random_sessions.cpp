@@ -3,20 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <exception>
 #include <memory>
 #include <numbers>
-#include <optional>
 #include <utility>
 
-#include "compare/mesh_judge.h"
-#include "core/mask/correspondence.h"
-#include "core/mesh/coverage.h"
-#include "core/mesh/drawable.h"
-#include "core/mesh/mesh_report.h"
-#include "core/session/run_command.h"
 #include "core/view/view.h"
-#include "raster_cpu/cpu_rasterizer.h"
 #include "tests/support/shapes.h"
 
 namespace rangezip::sessions {
@@ -157,25 +148,28 @@ struct Shot {
   Extent extent;
 };
 
-/// A part of the scene at a finer resolution, or all of it.
+/// All of a box under a lens, from outside.
+Shot perspective_shot(Random& random, const Box& bounds, const Vec3& direction, double pixel_size) {
+  const Vec3 middle = bounds.center();
+  const double radius = 0.5 * glm::length(bounds.upper - bounds.lower);
+  const double fov = random.between(0.4, 1.2);
+  const double distance = radius * random.between(1.1, 1.6) / std::sin(0.5 * fov);
+  const Vec3 up = std::abs(direction.y) < 0.9 ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
+  const Camera camera =
+      look_at(middle + distance * direction, middle, up, Perspective{.fov_y = fov});
+  const int side =
+      std::clamp(static_cast<int>(2.0 * distance * std::tan(0.5 * fov) / pixel_size), 24, 160);
+  return {fit_depth_planes(camera, bounds), {side, side}};
+}
+
+/// From anywhere, parallel or in perspective: all of the scene, or in parallel also a part of it at
+/// a finer resolution.
 Shot make_shot(Random& random, const Scene& scene, double pixel_size) {
   Box bounds = scene.bounds();
   const Vec3 direction = random.direction();
-  if (coin(random, 0.25)) {
-    const Vec3 middle = bounds.center();
-    const double radius = 0.5 * glm::length(bounds.upper - bounds.lower);
-    const double fov = random.between(0.4, 1.2);
-    const double distance = radius * random.between(1.1, 1.6) / std::sin(0.5 * fov);
-    const Vec3 up = std::abs(direction.y) < 0.9 ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
-    const int side =
-        std::clamp(static_cast<int>(2.0 * distance * std::tan(0.5 * fov) / pixel_size), 24, 160);
-    return {
-        fit_depth_planes(
-            look_at(middle + distance * direction, middle, up, Perspective{.fov_y = fov}), bounds),
-        {side, side}};
-  }
+  if (coin(random, 0.25)) return perspective_shot(random, bounds, direction, pixel_size);
   double pixel = pixel_size;
-  if (coin(random, 0.3)) {  // a zoom
+  if (coin(random, 0.3)) {
     const double zoom = random.between(1.5, 4.0);
     const Vec3 size = bounds.upper - bounds.lower;
     const Vec3 place = bounds.lower + size * Vec3{random.unit(), random.unit(), random.unit()};
@@ -187,33 +181,40 @@ Shot make_shot(Random& random, const Scene& scene, double pixel_size) {
   return {std::move(framed.camera), framed.extent};
 }
 
+/// Passes for what is wrong with points.
+void choose_passes(Random& random, ScanRequest& scan) {
+  if (coin(random, 0.8)) scan.see_through = SeeThroughOptions{};
+  if (coin(random, 0.8)) scan.plane_fit = PlaneFitOptions{};
+  if (coin(random, 0.8)) scan.fill_holes = FillHolesOptions{};
+  if (coin(random, 0.2)) scan.median = MedianFilterOptions{};
+  if (coin(random, 0.15)) scan.back_side = BackSideOptions{};
+  if (coin(random, 0.2)) scan.point_size = 2;
+}
+
+/// What of the image the patch is made of.
+void choose_mask(Random& random, ScanRequest& scan) {
+  if (coin(random, 0.1)) {
+    scan.unmatched_only = true;
+    scan.clean_mask = {.erosions = 0, .dilations = 0};
+    return;
+  }
+  if (coin(random, 0.6)) scan.quality = QualityMaskOptions{};
+  const int erosions = static_cast<int>(below(random, 2));
+  scan.clean_mask = {.erosions = erosions,
+                     .dilations = erosions + static_cast<int>(below(random, 2))};
+}
+
 AddScan make_scan(Random& random, const Scene& scene, double pixel_size, std::uint32_t view) {
-  const bool has_points = scene.point_count() > 0;
   AddScan command;
   Shot shot = make_shot(random, scene, pixel_size);
   command.scan.camera = std::move(shot.camera);
   command.scan.extent = shot.extent;
   if (coin(random, 0.35)) command.scan.region = make_lasso(random, shot.extent);
-  if (has_points) {
-    if (coin(random, 0.8)) command.scan.see_through = SeeThroughOptions{};
-    if (coin(random, 0.8)) command.scan.plane_fit = PlaneFitOptions{};
-    if (coin(random, 0.8)) command.scan.fill_holes = FillHolesOptions{};
-    if (coin(random, 0.2)) command.scan.median = MedianFilterOptions{};
-    if (coin(random, 0.15)) command.scan.back_side = BackSideOptions{};
-    if (coin(random, 0.2)) command.scan.point_size = 2;
-  }
+  if (scene.point_count() > 0) choose_passes(random, command.scan);
   if (coin(random, 0.15)) {
     command.scan.correspondence.method = CorrespondenceMethod::id_buffer;
   }
-  if (coin(random, 0.1)) {
-    command.scan.unmatched_only = true;
-    command.scan.clean_mask = {.erosions = 0, .dilations = 0};
-  } else {
-    if (coin(random, 0.6)) command.scan.quality = QualityMaskOptions{};
-    const int erosions = static_cast<int>(below(random, 2));
-    command.scan.clean_mask = {.erosions = erosions,
-                               .dilations = erosions + static_cast<int>(below(random, 2))};
-  }
+  choose_mask(random, command.scan);
   command.scan.triangulate = {.max_edge = 2.75,
                               .max_slope_cosine = 0.2588,
                               .min_component = coin(random, 0.7) ? std::size_t{40} : 3};
@@ -228,178 +229,6 @@ EraseRegion make_erasure(Random& random, const Scene& scene, double pixel_size) 
           .extent = shot.extent,
           .region = make_lasso(random, shot.extent),
           .visible_only = coin(random, 0.7)};
-}
-
-// Judging
-
-/// Points that are asked for a face near them, at most.
-constexpr std::size_t kMostPoints = 2'000;
-
-std::vector<Vec3> some_points(const Scene& scene) {
-  std::vector<Vec3> points = scene.points();  // in random order
-  points.resize(std::min(points.size(), kMostPoints));
-  return points;
-}
-
-Framebuffer draw(const TriangleMesh& mesh, const View& view) {
-  CpuRasterizer rasterizer;
-  const DrawableMesh drawable(mesh);
-  const DrawItem item = drawable.item();
-  return rasterizer.render(view, {&item, 1});
-}
-
-/// Whether the image of a face comes within `reach` pixels of the place in the window.
-bool touches(const TriangleMesh& mesh, const View& view, const Vec2& place, double reach) {
-  return std::ranges::any_of(mesh.triangles, [&](const Triangle& face) {
-    std::array<Vec3, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3& p = mesh.positions[face[k]];
-      if (view.is_perspective() && view.depth_of(p) <= 0.0) return false;
-      corners[k] = view.window_from_world(p);
-      corners[k].z = 0.0;
-    }
-    const Vec3 at{place, 0.0};
-    const Vec3 nearest = closest_point_on_triangle(at, corners[0], corners[1], corners[2]);
-    return glm::dot(nearest - at, nearest - at) <= reach * reach;
-  });
-}
-
-/// Whether the centre of a pixel that a rasterizer found covered before and not after has lost the
-/// surface. The rasterizer snaps corners to 1/256 of a pixel, and centres on the border of the mesh
-/// to either side; so it must have been that far inside and is now that far outside.
-bool has_lost(const TriangleMesh& before, const TriangleMesh& after, const View& view,
-              Pixel pixel) {
-  constexpr double kSnap = 0.02;
-  constexpr double kExact = 1e-9;
-  const Vec2 centre{pixel.x + 0.5, pixel.y + 0.5};
-  for (const Vec2& offset :
-       {Vec2{kSnap, kSnap}, Vec2{-kSnap, kSnap}, Vec2{kSnap, -kSnap}, Vec2{-kSnap, -kSnap}}) {
-    if (!touches(before, view, centre + offset, kExact)) return false;
-  }
-  return !touches(after, view, centre, kSnap);
-}
-
-std::size_t count_lost_pixels(const TriangleMesh& before, const TriangleMesh& after,
-                              const View& view) {
-  const Framebuffer shown = draw(before, view);
-  const Framebuffer left = draw(after, view);
-  std::size_t lost = 0;
-  for (int y = 0; y < view.extent().height; ++y) {
-    for (int x = 0; x < view.extent().width; ++x) {
-      if (shown.id[{x, y}] == kNoPrimitive || left.id[{x, y}] != kNoPrimitive) continue;
-      lost += has_lost(before, after, view, {x, y}) ? 1 : 0;
-    }
-  }
-  return lost;
-}
-
-/// Samples on a face before, none of which lies twice as far from the surface after.
-std::size_t count_lost_matches(const TriangleMesh& before, const TriangleMesh& after,
-                               const Scan& scan) {
-  constexpr double kBand = 1.5;
-  CpuRasterizer rasterizer;
-  const auto faces = [&](const TriangleMesh& mesh, double band) {
-    return find_correspondence(rasterizer, scan.image, scan.slopes, mesh, {.band = band}).face;
-  };
-  const Grid<PrimitiveId> matched = faces(before, kBand);
-  const Grid<PrimitiveId> left = faces(after, 2.0 * kBand);
-  const View& view = scan.image.view();
-  std::size_t lost = 0;
-  for (int y = 0; y < view.extent().height; ++y) {
-    for (int x = 0; x < view.extent().width; ++x) {
-      if (matched[{x, y}] == kNoPrimitive || left[{x, y}] != kNoPrimitive) continue;
-      lost += has_lost(before, after, view, {x, y}) ? 1 : 0;
-    }
-  }
-  return lost;
-}
-
-std::size_t count_lost_points(const TriangleMesh& before, const TriangleMesh& after,
-                              std::span<const Vec3> points, double pixel_size) {
-  const std::vector<std::uint8_t> covered = covered_points(points, before, pixel_size);
-  const std::vector<std::uint8_t> left = covered_points(points, after, 2.0 * pixel_size);
-  std::size_t lost = 0;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    lost += covered[i] != 0 && left[i] == 0 ? 1 : 0;
-  return lost;
-}
-
-/// The corners' coordinates, from the lowest corner on.
-using FacePlace = std::array<double, 9>;
-
-FacePlace place_of(const TriangleMesh& mesh, const Triangle& face) {
-  FacePlace lowest{};
-  for (std::size_t first = 0; first < 3; ++first) {
-    FacePlace place{};
-    for (std::size_t k = 0; k < 9; ++k)
-      place[k] = mesh.positions[face[(first + k / 3) % 3]][static_cast<int>(k % 3)];
-    if (first == 0 || place < lowest) lowest = place;
-  }
-  return lowest;
-}
-
-/// Whether the image of the face keeps away from the box of the patch.
-bool is_outside(const TriangleMesh& mesh, const Triangle& face, const View& view,
-                const Box& patch) {
-  constexpr double kReach = 10.0;  // pixels
-  Box image;
-  for (const std::uint32_t v : face) {
-    const Vec3& p = mesh.positions[v];
-    if (view.is_perspective() && view.depth_of(p) <= 0.0) return false;
-    image.add(view.window_from_world(p));
-  }
-  return image.upper.x < patch.lower.x - kReach || image.lower.x > patch.upper.x + kReach ||
-         image.upper.y < patch.lower.y - kReach || image.lower.y > patch.upper.y + kReach;
-}
-
-std::size_t count_changed_outside(const TriangleMesh& before, const TriangleMesh& after,
-                                  const Scan& scan) {
-  Box patch;
-  for (const Pixel p : scan.patch.pixels)
-    patch.add(Vec3{p.x + 0.5, p.y + 0.5, 0.0});
-  std::vector<FacePlace> places;
-  for (const Triangle& face : after.triangles)
-    places.push_back(place_of(after, face));
-  std::ranges::sort(places);
-  return static_cast<std::size_t>(
-      std::ranges::count_if(before.triangles, [&](const Triangle& face) {
-        return is_outside(before, face, scan.image.view(), patch) &&
-               !std::ranges::binary_search(places, place_of(before, face));
-      }));
-}
-
-void judge_topology(const TriangleMesh& mesh, Faults& faults) {
-  const compare::MeshVerdict verdict = compare::judge_mesh(mesh);
-  if (!verdict.is_manifold) {
-    faults.not_manifold = 1;
-    faults.misoriented_edges = report_mesh(mesh).misoriented_edges;
-    return;
-  }
-  faults.self_intersections = verdict.self_intersections;
-  faults.degenerate_faces = verdict.degenerate_faces;
-}
-
-void judge_coverage(const TriangleMesh& before, const TriangleMesh& after, const Scan& scan,
-                    std::span<const Vec3> points, double pixel_size, Faults& faults) {
-  for (const Pixel p : scan.patch.pixels)
-    pixel_size = std::max(pixel_size, scan.image.pixel_size(p));
-  faults.lost_pixels = count_lost_pixels(before, after, scan.image.view());
-  faults.lost_matches = count_lost_matches(before, after, scan);
-  faults.lost_points = count_lost_points(before, after, points, pixel_size);
-  faults.changed_outside = count_changed_outside(before, after, scan);
-}
-
-void add_repairs(const StitchReport& report, Outcome& outcome) {
-  outcome.repairs["crossing_seam_faces"] += report.crossing_seam_faces;
-  outcome.repairs["crossing_patch_faces"] += report.crossing_patch_faces;
-  outcome.repairs["withdrawn_faces"] += report.withdrawn_faces;
-  outcome.repairs["patch_faces"] += report.patch_faces;
-}
-
-std::string kind_of(const Command& command) {
-  const auto* scan = std::get_if<AddScan>(&command);
-  if (scan == nullptr) return "erase";
-  return scan->stitch.method == StitchMethod::zipper ? "zipper" : "clear_and_fill";
 }
 
 }  // namespace
@@ -420,50 +249,6 @@ RandomSession make_session(std::uint64_t seed, std::uint64_t number) {
     }
   }
   return session;
-}
-
-std::map<std::string, std::size_t> Faults::by_cause() const {
-  return {{"exceptions", exceptions},
-          {"not_manifold", not_manifold},
-          {"misoriented_edges", misoriented_edges},
-          {"self_intersections", self_intersections},
-          {"degenerate_faces", degenerate_faces},
-          {"lost_pixels", lost_pixels},
-          {"lost_matches", lost_matches},
-          {"lost_points", lost_points},
-          {"changed_outside", changed_outside}};
-}
-
-bool Faults::any() const {
-  return std::ranges::any_of(by_cause(), [](const auto& entry) { return entry.second > 0; });
-}
-
-Outcome run_session(const RandomSession& session) {
-  const std::vector<Vec3> points = some_points(session.scene);
-  CpuRasterizer rasterizer;
-  VoteCache votes;
-  TriangleMesh mesh;
-  Outcome outcome;
-  for (const Command& command : session.commands) {
-    Step step{.kind = kind_of(command)};
-    try {
-      CommandResult result = run_command(command, session.scene, mesh, votes, rasterizer);
-      judge_topology(result.mesh, step.faults);
-      if (result.scan) {
-        add_repairs(result.report.stitch, outcome);
-        judge_coverage(mesh, result.mesh, *result.scan, points, session.pixel_size, step.faults);
-      }
-      mesh = std::move(result.mesh);
-    } catch (const std::exception& e) {
-      step.faults.exceptions = 1;
-      step.what = e.what();
-    }
-    const bool has_ended = step.faults.exceptions > 0;
-    outcome.steps.push_back(std::move(step));
-    if (has_ended) break;
-  }
-  outcome.faces = mesh.triangles.size();
-  return outcome;
 }
 
 }  // namespace rangezip::sessions

@@ -1,5 +1,6 @@
 #include "core/patch/patch.h"
 
+#include <algorithm>
 #include <set>
 
 #include <catch2/catch.hpp>
@@ -75,6 +76,35 @@ TEST_CASE("the cells of a patch are those of its triangles, without dropped piec
   }
   CHECK(patch.mesh.triangles.size() == 2 * 4 * 3);
   CHECK(triangles == patch.mesh.triangles.size());
+}
+
+TEST_CASE("vertices that no triangle uses go with their pixels", "[patch]") {
+  const RangeImage image = flat_image({6, 4});
+  Patch patch = triangulate(image, full_mask({6, 4}));
+  std::erase_if(patch.mesh.triangles, [&](const Triangle& t) {
+    return std::any_of(t.begin(), t.end(),
+                       [&](std::uint32_t v) { return patch.pixels[v].x % 4 == 0; });
+  });
+  remove_unused_vertices(patch);
+  CHECK(patch.pixels.size() == 3 * 4);
+  REQUIRE(patch.pixels.size() == patch.mesh.positions.size());
+  for (std::size_t v = 0; v < patch.pixels.size(); ++v)
+    CHECK(patch.mesh.positions[v] == image.position(patch.pixels[v]));
+}
+
+TEST_CASE("pixel sides grow with the depth under a lens only", "[patch]") {
+  const Extent extent{4, 4};
+  RangeImage image(
+      View(Camera{.lens = Perspective{}, .near_depth = 1.0, .far_depth = 1000.0}, extent),
+      Grid<double>(extent, 10.0));
+  image[{2, 1}] = 10.5;
+  const PixelSides sides = pixel_sides_of(triangulate(image, full_mask(extent)), image);
+  CHECK(sides.smallest == image.view().pixel_size(10.0));
+  CHECK(sides.largest == image.view().pixel_size(10.5));
+  CHECK(sides.largest > sides.smallest);
+  const RangeImage parallel = flat_image(extent);
+  const PixelSides equal = pixel_sides_of(triangulate(parallel, full_mask(extent)), parallel);
+  CHECK((equal.smallest == 1.0 && equal.largest == 1.0));
 }
 
 TEST_CASE("triangulate cuts a cell along the smaller step of depth", "[patch]") {
