@@ -32,6 +32,8 @@ constexpr int kThinnedParts = 2;
 /// In h: girth of handles that no object has, since scans resolve what is 2 h thick (over 6 h
 /// around).
 constexpr double kThinHandle = 5.5;
+/// Between contours a window may span four gaps: two contours on both sides tell the bending.
+constexpr double kWidestPerGap = 5.0;
 constexpr int kHandleRounds = 6;  ///< of {cut, close}: paths that touch are cut one by one
 /// In h: how far beyond the mesh points may matter.
 constexpr double kRegionMargin = 4.0;
@@ -103,7 +105,8 @@ void mend_slivers(TriangleMesh& mesh, const PointGrid& cloud, const FinishOption
 void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
              FinishReport& report, const Progress& progress) {
   const double h = options.pixel_size;
-  const FitWindow fit = choose_fit_window(mesh, cloud, h);
+  FitWindow fit = choose_fit_window(mesh, cloud, h);
+  fit.window.widest = kWidestPerGap * options.gap;
   report.noise = fit.noise;
   report.fit_radius = fit.window.radius;
   const bool is_wide = fit.window.radius > kThinnedFrom * h;

@@ -25,6 +25,8 @@ struct FinishOptions {
   double flat_tolerance = 0.0;  ///< in h: `full` lets triangles grow where they stay within this of
                                 ///< the surface; 0: they are of about one size
   bool snap_features = true;    ///< sharp edges and corners
+  double gap = 0.0;  ///< between the contours that the cloud is made of, model units: the surface
+                     ///< is fitted to several of them; 0: the points are spread evenly
   std::size_t min_component = 100;  ///< smaller pieces are dropped
 };
 

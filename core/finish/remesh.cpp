@@ -66,8 +66,8 @@ class Remesher {
 
   void run(RemeshReport& report, const Progress& progress) {
     for (const double share : kProjections)
-      move_vertices(
-          0.0, {share * options_.window.radius, options_.window.height, options_.window.noise});
+      move_vertices(0.0, {share * options_.window.radius, options_.window.height,
+                          options_.window.noise, options_.window.widest});
     for (int round = 0; round < options_.rounds; ++round) {
       progress.check_stop();
       if (round + kClosingRounds < options_.rounds) {
@@ -247,7 +247,7 @@ class Remesher {
   [[nodiscard]] std::vector<SurfaceFit> wide_fits() const {
     const SurfaceWindow window{
         std::max(options_.window.radius, kBendingRadius * options_.pixel_size),
-        options_.window.height, options_.window.noise};
+        options_.window.height, options_.window.noise, options_.window.widest};
     std::vector<SurfaceFit> fits(positions_.size());
     parallel_for(fits.size(), kPerBlock, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {

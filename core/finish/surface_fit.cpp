@@ -15,6 +15,8 @@ constexpr double kMeanWeight = 4.0 / 7.0;  // of squared weights per weight, ove
 constexpr double kAllBelieved = 0.99;
 constexpr double kDoubt = 2.0;      // of what noise makes: more flattens what bends a little
 constexpr double kMinPivot = 1e-4;  // of the diagonal: below, the points do not tell the term
+constexpr double kSurePivot = 0.1;  // above, they tell it as well as points all around do
+constexpr double kWiden = 1.25;
 
 using Terms = std::array<double, kTerms>;
 using TermMatrix = std::array<Terms, kTerms>;  ///< symmetric: the lower triangle counts
@@ -130,6 +132,16 @@ Solution solve(const NormalEquations& equations) {
   return {};
 }
 
+/// Whether the points lie far enough around to tell how the surface bends, every way.
+bool tells_bending(const Solution& solution, const NormalEquations& equations) {
+  if (solution.size != kTerms) return false;
+  for (std::size_t i = kPlaneTerms; i < kTerms; ++i) {
+    const double pivot = solution.factor[i][i];
+    if (pivot * pivot < kSurePivot * equations.matrix[i][i]) return false;
+  }
+  return true;
+}
+
 /// The share of the bending that is not to be put down to noise: 0 where noise alone would give as
 /// much, towards 1 where it is far more [James, Stein 1961].
 double believed_bending(const Solution& solution, double noise) {
@@ -216,11 +228,16 @@ void for_each_sample(const PointGrid& cloud, const Vec3& place, const Frame& fra
 SurfaceFit fit_surface(const PointGrid& cloud, const Vec3& place, const Vec3& normal,
                        const SurfaceWindow& window) {
   const Frame frame(normal);
-  NormalEquations equations;
-  for_each_sample(cloud, place, frame, window, [&](const Sample& s) { equations.add(s); });
-  Solution solution = solve(equations);
-  shrink_bending(solution, equations, window.noise / window.radius);
-  return fit_from(solution, equations.count, frame, window.radius);
+  SurfaceFit fit;
+  for (SurfaceWindow tried = window;; tried.radius *= kWiden) {
+    NormalEquations equations;
+    for_each_sample(cloud, place, frame, tried, [&](const Sample& s) { equations.add(s); });
+    Solution solution = solve(equations);
+    const bool is_sure = tells_bending(solution, equations);
+    shrink_bending(solution, equations, tried.noise / tried.radius);
+    if (solution.size > 0) fit = fit_from(solution, equations.count, frame, tried.radius);
+    if (is_sure || kWiden * tried.radius > window.widest) return fit;
+  }
 }
 
 MeasuredFit measure_surface(const PointGrid& cloud, const Vec3& place, const Vec3& normal,

@@ -13,6 +13,8 @@ struct SurfaceWindow {
   double height = 0.0;  ///< farther from the tangent plane, points belong to another sheet
   double noise = 0.0;   ///< standard deviation of the points from the surface, model units: bending
                         ///< that it may have made is taken back; 0: all of it is believed
+  double widest = 0.0;  ///< radius up to which fit_surface() widens the window where the points do
+                        ///< not tell how the surface bends; up to the radius itself: never
 };
 
 /// The surface that a cloud shows next to a place, as a quadratic height over the tangent plane.
@@ -27,7 +29,7 @@ struct SurfaceFit {
 
 /// Weighted least squares of a quadric z = z(u, v) over the plane through `place` across `normal`
 /// [Cazals, Pouget 2005]; weights fall to 0 at the radius. With few points a plane is fitted, with
-/// fewer than six nothing. Cost: the points within the radius.
+/// fewer than six nothing. Cost: the points within the radius, which may be widened.
 /// @pre normal is a unit vector
 [[nodiscard]] SurfaceFit fit_surface(const PointGrid& cloud, const Vec3& place, const Vec3& normal,
                                      const SurfaceWindow& window);

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
 #include <span>
 #include <string>
 
@@ -54,6 +57,76 @@ double depth_from_neighbours(const RangeImage& image, Pixel pixel,
   return count < std::min(kMinAveraged, options.min_neighbours) ? kNoSample : sum / count;
 }
 
+/// The nearest sample from a pixel in one direction.
+struct Bank {
+  int steps = 0;  ///< 0: there is none within reach
+  double depth = 0.0;
+};
+
+/// Two samples with the pixel between them, and its depth on the line that joins them.
+struct Bridge {
+  double length = std::numeric_limits<double>::infinity();  ///< pixels
+  double depth = kNoSample;
+};
+
+/// Finds the shortest bridges over pixels without a sample.
+class Bridges {
+ public:
+  Bridges(const RangeImage& image, const FillHolesOptions& options)
+      : image_(image), options_(options) {}
+
+  /// The depth of the shortest bridge, or kNoSample.
+  [[nodiscard]] double depth_at(Pixel pixel) const {
+    Bridge shortest;
+    for (const Pixel step : {Pixel{1, 0}, Pixel{0, 1}, Pixel{1, 1}, Pixel{1, -1}}) {
+      const Bridge bridge = bridge_along(pixel, step);
+      if (bridge.length < shortest.length) shortest = bridge;
+    }
+    return shortest.depth;
+  }
+
+ private:
+  [[nodiscard]] Bank bank_along(Pixel pixel, Pixel step) const {
+    for (int steps = 1; steps < options_.reach; ++steps) {
+      const Pixel there{pixel.x + steps * step.x, pixel.y + steps * step.y};
+      if (!image_.extent().contains(there)) break;
+      if (image_.has_sample(there)) return {steps, image_[there]};
+    }
+    return {};
+  }
+
+  [[nodiscard]] Bridge bridge_along(Pixel pixel, Pixel step) const {
+    const Bank before = bank_along(pixel, {-step.x, -step.y});
+    if (before.steps == 0) return {};
+    const Bank after = bank_along(pixel, step);
+    if (after.steps == 0) return {};
+    const double pixels_per_step = step.x != 0 && step.y != 0 ? std::numbers::sqrt2 : 1.0;
+    const int steps = before.steps + after.steps;
+    const double length = pixels_per_step * steps;
+    const double max_step = options_.max_step * image_.view().pixel_size(before.depth);
+    if (length > options_.reach || std::abs(after.depth - before.depth) > max_step * length)
+      return {};
+    return {length, before.depth + (after.depth - before.depth) * before.steps / steps};
+  }
+
+  const RangeImage& image_;
+  const FillHolesOptions& options_;
+};
+
+/// Fills the pixels for which `depth_at(pixel)` is a depth.
+template <class DepthAt>
+void fill(FillHolesResult& result, const DepthAt& depth_at) {
+  for_each_row(result.image.extent().height, [&](int y) {
+    for (Pixel p{0, y}; p.x < result.image.extent().width; ++p.x) {
+      if (result.image.has_sample(p)) continue;
+      const double depth = depth_at(p);
+      if (depth == kNoSample) continue;
+      result.image[p] = depth;
+      result.filled[p] = 1;
+    }
+  });
+}
+
 }  // namespace
 
 FillHolesResult fill_holes(const RangeImage& image, const FillHolesOptions& options) {
@@ -65,18 +138,18 @@ FillHolesResult fill_holes(const RangeImage& image, const FillHolesOptions& opti
     throw InvalidArgument("fill_holes: rounds must not be negative, got " +
                           std::to_string(options.rounds));
   }
+  if (options.reach < 0) {
+    throw InvalidArgument("fill_holes: reach must not be negative, got " +
+                          std::to_string(options.reach));
+  }
   FillHolesResult result{.image = image, .filled = Mask(image.extent(), 0)};
+  if (options.reach > 0) {
+    const Bridges bridges(image, options);
+    fill(result, [&](Pixel p) { return bridges.depth_at(p); });
+  }
   for (int round = 0; round < options.rounds; ++round) {
     const RangeImage before = result.image;
-    for_each_row(image.extent().height, [&](int y) {
-      for (Pixel p{0, y}; p.x < image.extent().width; ++p.x) {
-        if (before.has_sample(p)) continue;
-        const double depth = depth_from_neighbours(before, p, options);
-        if (depth == kNoSample) continue;
-        result.image[p] = depth;
-        result.filled[p] = 1;
-      }
-    });
+    fill(result, [&](Pixel p) { return depth_from_neighbours(before, p, options); });
   }
   return result;
 }

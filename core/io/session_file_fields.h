@@ -71,12 +71,14 @@ void describe(Fields& f, PlaneFitOptions& options) {
 
 template <class Fields>
 void describe(Fields& f, FillHolesOptions& options) {
-  auto& [min_neighbours, rounds, max_step] = options;
+  auto& [min_neighbours, rounds, max_step, reach] = options;
   f.integer("min_neighbours", min_neighbours, {1, 8},
             "of the eight, that must have a sample for a pixel to be filled");
   f.integer("rounds", rounds, kCount, "a round fills what the one before made fillable");
   f.number("max_step", max_step, kPositive,
            "pixel sides of depth; neighbours beyond a larger step belong to another sheet");
+  f.integer("reach", reach, kCount,
+            "pixels; lines between samples no farther apart are filled first; 0: none");
 }
 
 template <class Fields>
@@ -238,7 +240,7 @@ template <class Fields>
 void describe(Fields& f, FinishMesh& command) {
   auto& [options] = command;
   auto& [method, pixel_size, max_hole_perimeter, narrow_width, rounds, relaxations, triangles,
-         flat_tolerance, snap_features, min_component] = options;
+         flat_tolerance, snap_features, gap, min_component] = options;
   f.choice("method", method,
            std::array{Choice<FinishMethod>{"fast", FinishMethod::fast},
                       Choice<FinishMethod>{"full", FinishMethod::full}},
@@ -257,6 +259,8 @@ void describe(Fields& f, FinishMesh& command) {
       "flat_tolerance", flat_tolerance, kNotNegative,
       "pixel sizes; triangles grow where they stay within this of the surface; 0: of one size");
   f.boolean("snap_features", snap_features, "moves vertices onto sharp edges and corners");
+  f.number("gap", gap, kNotNegative,
+           "model units; between the contours that the points lie on; 0: they are spread evenly");
   f.integer("min_component", min_component, kCount, "triangles; smaller pieces are dropped");
 }
 

@@ -134,6 +134,7 @@ class Run {
                .bounds = resolution.bounds,
                .pixel_size = resolution.pixel_size,
                .point_size = resolution.point_size,
+               .gap = resolution.gap,
                .decimate = options_.decimate,
                .has_points = scene_.point_count() > 0};
     if (recipe_.has_points) recipe_.one_sided = is_open_sheet(rasterizer_, scene_points());
@@ -226,6 +227,8 @@ class Run {
       command.options.pixel_size = recipe_.pixel_size;
       command.options.triangles = options_.triangles.value_or(0);
       command.options.flat_tolerance = options_.decimate.value_or(0.0);
+      command.options.gap = recipe_.gap;
+      command.options.snap_features = recipe_.gap == 0.0;  // between contours a bend looks sharp
       apply(command, part_of(progress_, "finish", kFinishShare, kCheckShare));
     }
     clock_.finish("finish");

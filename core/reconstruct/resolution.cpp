@@ -72,7 +72,10 @@ Resolution choose_resolution(const Scene& scene, std::span<const Vec3> samples,
   if (!pixel_size)
     chosen.pixel_size = std::max(chosen.pixel_size, finest_pixel_size(chosen.bounds));
 
-  if (has_points) chosen.point_size = point_size_for(*spacing, chosen.pixel_size);
+  if (has_points) {
+    chosen.point_size = point_size_for(*spacing, chosen.pixel_size);
+    chosen.gap = spacing->gap;
+  }
   return chosen;
 }
 

@@ -1,5 +1,8 @@
 #include "core/reconstruct/scan_recipe.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace rangezip {
 
 namespace {
@@ -19,6 +22,14 @@ AddScan framed_scan(const ScanRecipe& recipe, const Vec3& toward_viewer, std::ui
   return command;
 }
 
+/// How far apart contours may be where they are joined, pixels: some gaps are wider than usual.
+int bridge_reach(const ScanRecipe& recipe) {
+  constexpr double kReachPerGap = 3.0;
+  constexpr double kFarthest = 64.0;  // beyond, no pixel knows its neighbours
+  const double reach = std::round(kReachPerGap * recipe.gap / recipe.pixel_size);
+  return static_cast<int>(std::min(reach, kFarthest));
+}
+
 /// The passes of this project: plane-fit samples, local removal of what shines through, the
 /// visibility vote, correspondence in a depth band, clear and fill.
 AddScan automatic_scan(const ScanRecipe& recipe, const Vec3& toward_viewer, std::uint32_t view) {
@@ -27,7 +38,9 @@ AddScan automatic_scan(const ScanRecipe& recipe, const Vec3& toward_viewer, std:
     command.scan.see_through = SeeThroughOptions{};
     command.scan.plane_fit = PlaneFitOptions{};
     command.scan.fill_holes = FillHolesOptions{};
-    if (!recipe.one_sided) command.vote = VoteOptions{.pixel_size = recipe.pixel_size};
+    command.scan.fill_holes->reach = bridge_reach(recipe);
+    if (!recipe.one_sided)
+      command.vote = VoteOptions{.pixel_size = std::max(recipe.pixel_size, recipe.gap)};
   }
   command.stitch.method = StitchMethod::clear_and_fill;
   return command;

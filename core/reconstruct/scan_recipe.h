@@ -14,6 +14,7 @@ struct ScanRecipe {
   Box bounds;                      ///< what the image must show, model units
   double pixel_size = 0.0;         ///< model units
   int point_size = 1;              ///< pixels
+  double gap = 0.0;                ///< between contours, model units; 0: no contours
   std::optional<double> decimate;  ///< tolerance of DecimateOptions
   bool has_points = true;          ///< false: polygons only, no passes against gaps between points
   bool one_sided = false;          ///< an open sheet, seen from the side of the first view; else a

@@ -229,6 +229,24 @@ inline Mat4 translation(const Vec3& by) {
   return m;
 }
 
+/// Points on the slices z = (i + 0.5) step of that torus: circles, with a point in every `along`.
+inline PointCloud sliced_torus(double radius, double tube, double step, double along,
+                               std::uint64_t seed = 1) {
+  PointCloud cloud;
+  Random random(seed);
+  for (double z = 0.5 * step - tube; z < tube; z += step) {
+    for (const double side : {-1.0, 1.0}) {
+      const double r = radius + side * std::sqrt(tube * tube - z * z);
+      const int count = static_cast<int>(2.0 * std::numbers::pi * r / along);
+      for (int i = 0; i < count; ++i) {
+        const double angle = 2.0 * std::numbers::pi * (i + random.between(0.0, 1.0)) / count;
+        cloud.positions.emplace_back(Vec3{r * std::cos(angle), r * std::sin(angle), z});
+      }
+    }
+  }
+  return cloud;
+}
+
 /// A rotation that leaves nothing parallel to an axis.
 inline Mat4 tilt() {
   const double ca = std::cos(0.37);

@@ -117,6 +117,26 @@ TEST_CASE("few points give a plane, fewer nothing, and another sheet does not co
   REQUIRE(std::abs(quadric.height - 0.03) < 1e-5);
 }
 
+TEST_CASE("between contours the fit widens to those that tell how the surface bends") {
+  // Rows of points on a cylinder, none within 0.3 of the place: two of them are in the window.
+  const auto height = [](double y) { return -0.5 * y * y; };
+  std::vector<Vec3> points;
+  for (const double y : {-0.9, -0.6, -0.3, 0.3, 0.6, 0.9}) {
+    for (int i = -100; i <= 100; ++i)
+      points.emplace_back(0.01 * i, y, height(y));
+  }
+  const PointGrid cloud(points, kRegion, 0.2);
+  const Vec3 z(0.0, 0.0, 1.0);
+  // What lies between two rows is flat as far as they tell ...
+  CHECK(fit_surface(cloud, Vec3{0.0}, z, {kRadius, 1.0}).height ==
+        Approx(height(0.3)).epsilon(0.01));
+  // ... and with those beyond them the cylinder.
+  const SurfaceFit fit = fit_surface(cloud, Vec3{0.0}, z, {kRadius, 1.0, 0.0, 1.5});
+  REQUIRE(fit.is_found);
+  CHECK(std::abs(fit.height) < 1e-5);
+  CHECK(fit.bending[1][1] == Approx(-1.0).epsilon(1e-3));
+}
+
 TEST_CASE("points in a row are no surface") {
   std::vector<Vec3> points;
   for (int i = -50; i <= 50; ++i)

@@ -68,11 +68,38 @@ TEST_CASE("fill_holes does not grow the object, and stops after its rounds", "[i
   CHECK(fill_holes(image, {.min_neighbours = 6, .rounds = 9}).image == image);
 }
 
+TEST_CASE("fill_holes joins rows of samples that are within reach, exactly on a plane", "[image]") {
+  const auto plane = [](Pixel p) { return 10.0 + 0.5 * p.x - 0.25 * p.y; };
+  const View view = images::parallel_view({16, 13});
+  RangeImage rows = images::image_of(view, plane);
+  for (int y = 0; y < 13; ++y) {
+    for (int x = 0; x < 16; ++x) {
+      if (y % 4 != 0) rows[{x, y}] = kNoSample;
+    }
+  }
+  const FillHolesResult joined = fill_holes(rows, {.rounds = 0, .reach = 4});
+  CHECK(joined.image == images::image_of(view, plane));
+  CHECK(images::count_of(joined.filled) == 16 * 9);
+  CHECK(fill_holes(rows, {.rounds = 0, .reach = 3}).image == rows);
+}
+
+TEST_CASE("fill_holes joins no sheets of different depth and does not grow silhouettes",
+          "[image]") {
+  const RangeImage apart = images::image_of(images::parallel_view({12, 8}), [](Pixel p) {
+    return p.x < 4 ? 10.0 : p.x < 7 ? kNoSample : 30.0;  // a step of 5 pixel sides a pixel
+  });
+  CHECK(fill_holes(apart, {.rounds = 0, .reach = 6}).image == apart);
+  const RangeImage half = images::image_of(images::parallel_view({12, 8}),
+                                           [](Pixel p) { return p.x < 4 ? 10.0 : kNoSample; });
+  CHECK(fill_holes(half, {.rounds = 0, .reach = 6}).image == half);
+}
+
 TEST_CASE("fill_holes refuses impossible options", "[image]") {
   const RangeImage image(images::parallel_view({3, 3}));
   CHECK_THROWS_AS(fill_holes(image, {.min_neighbours = 0}), InvalidArgument);
   CHECK_THROWS_AS(fill_holes(image, {.min_neighbours = 9}), InvalidArgument);
   CHECK_THROWS_AS(fill_holes(image, {.rounds = -1}), InvalidArgument);
+  CHECK_THROWS_AS(fill_holes(image, {.reach = -1}), InvalidArgument);
 }
 
 }  // namespace

@@ -102,6 +102,49 @@ TEST_CASE(
         Approx(2.2 * mean));
 }
 
+/// Lines of points `gap` apart in the plane z = 0, one point in every `step` along them.
+std::vector<Vec3> lines(int count, double gap, double step) {
+  std::vector<Vec3> points;
+  shapes::Random random(4);
+  for (int line = 0; line < count; ++line) {
+    const int along = static_cast<int>(count * gap / step);
+    for (int i = 0; i < along; ++i)
+      points.emplace_back((i + random.between(0.0, 1.0)) * step, line * gap, 0.0);
+  }
+  return points;
+}
+
+TEST_CASE("estimate_spacing of a cloud of contours tells the gap between them and its density") {
+  for (const double step : {0.02, 0.1, 0.25}) {
+    CAPTURE(step);
+    const Spacing spacing = estimate_spacing(rotated(lines(40, 1.0, step)));
+    // The nearest point of the next line is at most a step off the foot of the perpendicular; at
+    // the first and last line there is no other side, and the far ones do not count.
+    CHECK(spacing.gap >= Approx(1.0));
+    CHECK(spacing.gap < std::sqrt(1.0 + step * step));
+    // A fifth neighbour is 2.5 steps away on average, and scatters by half a step.
+    CHECK(spacing.median == Approx(std::sqrt(step)).epsilon(0.2));
+    CHECK(pixel_size_from_spacing(spacing) >= spacing.gap);
+    CHECK(closed_sheet_pixel_size(spacing) >= 1.5 * spacing.gap);
+  }
+}
+
+TEST_CASE("estimate_spacing takes no evenly spread cloud for contours") {
+  CHECK(estimate_spacing(rotated(lattice(80, 1.0))).gap == 0.0);
+  CHECK(estimate_spacing(lines(60, 1.0, 0.8)).gap == 0.0);
+  const Spacing line = estimate_spacing(lines(1, 100.0, 0.1));
+  CHECK(line.gap == 0.0);
+  CHECK(line.median > 0.0);
+  std::vector<Vec3> oblong = lattice(80, 1.0);
+  for (Vec3& p : oblong)
+    p.y *= 2.0;
+  CHECK(estimate_spacing(rotated(oblong)).gap == 0.0);
+  for (const TriangleSoup& soup : {shapes::sphere(), shapes::torus(), shapes::plate(0.01)}) {
+    const auto points = shapes::to_points(shapes::sampled(soup, 20'000));
+    CHECK(estimate_spacing(points).gap == 0.0);
+  }
+}
+
 TEST_CASE("estimate_spacing works with as few as three points") {
   const std::vector<Vec3> three{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   const Spacing spacing = estimate_spacing(three);

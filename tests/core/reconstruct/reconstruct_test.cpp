@@ -79,6 +79,17 @@ TEST_CASE("a sampled torus keeps its hole", "[reconstruct]") {
   CHECK(signed_volume(result.mesh) == Approx(2.0 * kPi * kPi * 0.16).epsilon(0.01));
 }
 
+TEST_CASE("a torus of contours is closed between them and keeps its hole", "[reconstruct]") {
+  // Slices 0.06 apart, and 0.22 at most on the surface, where it is level; a point in every 0.01.
+  const ReconstructResult result =
+      run(scene_of(shapes::sliced_torus(1.0, 0.4, 0.06, 0.01), shapes::tilt()));
+  check_clean(result);
+  CHECK(result.report.mesh.components == 1);
+  CHECK(result.report.mesh.boundary_edges == 0);
+  CHECK(result.report.mesh.euler == 0);
+  CHECK(signed_volume(result.mesh) == Approx(2.0 * kPi * kPi * 0.16).epsilon(0.01));
+}
+
 TEST_CASE("two bodies far apart become two closed components", "[reconstruct]") {
   const ReconstructResult result = run(scene_of(shapes::sampled(shapes::two_spheres(1.0), 40'000)));
   check_clean(result);

@@ -34,7 +34,8 @@ inline std::vector<Command> full_commands(shapes::Random& random) {
   scan.scan.see_through = {.max_slope = share(), .remove_outliers = false, .rounds = count()};
   scan.scan.back_side = {.min_gap = share()};
   scan.scan.plane_fit = {.slope_ridge = share()};
-  scan.scan.fill_holes = {.min_neighbours = count(), .rounds = count() + 1, .max_step = share()};
+  scan.scan.fill_holes = {
+      .min_neighbours = count(), .rounds = count() + 1, .max_step = share(), .reach = count() + 2};
   scan.scan.median = {.radius = count(), .max_step = share()};
   scan.scan.steep_cells = {.min_cosine = share()};
   scan.scan.correspondence = {
@@ -73,6 +74,7 @@ inline std::vector<Command> full_commands(shapes::Random& random) {
   finish.options.triangles = static_cast<std::size_t>(count());
   finish.options.flat_tolerance = share();
   finish.options.snap_features = false;
+  finish.options.gap = share();
   finish.options.min_component = static_cast<std::size_t>(count());
 
   return {scan,
