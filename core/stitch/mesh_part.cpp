@@ -73,7 +73,7 @@ class TileMask {
   }
 
  private:
-  static constexpr int kTile = 8;  ///< pixels
+  static constexpr int kTile = 4;  ///< pixels
 
   [[nodiscard]] Pixel tile_of(const GridPoint& p) const {
     return {

@@ -19,7 +19,7 @@ struct MeshPart {
 };
 
 /// Cuts out the faces whose box in the image comes within `margin` pixels of one of the pixels,
-/// those that meet their boxes in turn, both to a tile of 8 pixels, and one ring around: whatever
+/// those that meet their boxes in turn, both to a tile of 4 pixels, and one ring around: whatever
 /// is done to the faces near the pixels, their neighbours are there. Faces with a corner behind the
 /// viewer belong to it. O(vertices + faces) of the whole, 10 ns each, and the only step of a stitch
 /// that is.

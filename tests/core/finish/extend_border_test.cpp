@@ -197,4 +197,21 @@ TEST_CASE("extend_border leaves a closed mesh alone, and any mesh without a clou
 }
 
 }  // namespace
+TEST_CASE("a border does not feather into a cloud that is no surface") {
+  constexpr std::uint64_t kSeed = 5;
+  INFO("seed " << kSeed);
+  std::mt19937_64 engine(kSeed);
+  std::vector<Vec3> points(40'000);
+  for (Vec3& p : points)
+    p = {uniform(engine, -2, 2), uniform(engine, -2, 2), uniform(engine, -0.5, 0.5)};
+  TriangleMesh mesh = sheet(0.5);
+  const std::size_t before = report_mesh(mesh).boundary_edges;
+  extend_border(mesh, grid_of(points), {.pixel_size = kH});
+  const MeshReport after = report_mesh(mesh);
+  CHECK(after.boundary_edges > before);
+  CHECK(after.boundary_edges < 5 * before);
+  CHECK(after.nonmanifold_edges == 0);
+  CHECK(self_intersections(mesh).empty());
+}
+
 }  // namespace rangezip

@@ -64,6 +64,32 @@ TEST_CASE("plan_views look into a pocket from where its floor is seen") {
                     [](const Vec3& direction) { return direction.z > 0.89; }));
 }
 
+TEST_CASE("plan_views_of look at their targets only, past what hides them") {
+  // The floor of a pocket is seen from above, within 30 degrees; the axes are among the candidates.
+  const std::vector<Vec3> points = points_on(shapes::pocket(1.0));
+  const auto is_in_middle = [](const Vec3& p) {
+    return std::max(std::abs(p.x), std::abs(p.y)) < 0.2;
+  };
+  double bottom = 1.0;  // of the body, below the floor
+  for (const Vec3& p : points)
+    bottom = std::min(bottom, p.z);
+  std::vector<Vec3> floor;
+  for (const Vec3& p : points) {
+    if (is_in_middle(p) && p.z > bottom + 0.01) floor.push_back(p);
+  }
+  REQUIRE(floor.size() > 20);
+  CpuRasterizer rasterizer;
+  const double side = closed_sheet_pixel_size(estimate_spacing(points));
+  const ViewPlan plan =
+      plan_views_of(rasterizer, points, floor, side, {.coverage = 1.0, .views_for_quality = 0});
+  REQUIRE(!plan.directions.empty());
+  CHECK(plan.directions.size() <= 3);
+  for (const Vec3& direction : plan.directions)
+    CHECK(direction.z > 0.8);
+  CHECK(plan.coverage.back() > 0.95);
+  CHECK_THROWS_AS(plan_views_of(rasterizer, points, {}, side), InvalidArgument);
+}
+
 TEST_CASE("plan_views cover as much when the axes of the cloud are exchanged") {
   const std::vector<Vec3> points = points_on(shapes::moved(shapes::torus(), shapes::tilt()));
   std::vector<Vec3> exchanged;

@@ -1,5 +1,6 @@
 // What a stitch looks at after its work, part by part: what changed, what crosses, what was lost.
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -208,7 +209,7 @@ TEST_CASE("a part cut out and put back unchanged is the whole again", "[stitch]"
   const View view = images::parallel_view(kExtent);
   const std::vector<Pixel> pixels{{20, 20}, {30, 25}};
   const MeshPart part = cut_out_part(whole, view, pixels, 3);
-  CHECK(part.mesh.triangles.size() < whole.triangles.size() / 4);
+  CHECK(part.mesh.triangles.size() < whole.triangles.size() / 3);
   CHECK(part.mesh.triangles.size() > std::size_t{2} * 16 * 11);
   TriangleMesh back = whole;
   put_back(back, part, part.mesh, {});
@@ -228,6 +229,75 @@ TEST_CASE("a part cut out and put back unchanged is the whole again", "[stitch]"
   for (std::size_t v = 0; v < part.vertex_in_whole.size(); ++v) {
     if (part.is_rim[v] != 0) continue;
     CHECK(in_part[part.vertex_in_whole[v]] == in_whole[part.vertex_in_whole[v]]);
+  }
+}
+
+TEST_CASE("the part around pixels far apart leaves out what lies between them", "[stitch]") {
+  const TriangleMesh whole = lattice({2.2, 2.3}, 55, 55, 1.0, 20.0);
+  const View view = images::parallel_view(kExtent);
+  const std::vector<Pixel> pixels{{6, 6}, {54, 54}};
+  const MeshPart part = cut_out_part(whole, view, pixels, 3);
+  CHECK(part.mesh.triangles.size() < whole.triangles.size() / 2);
+  for (const Pixel p : pixels) {
+    const Vec2 place = in_pixels(grid_point(p));
+    std::size_t near = 0, near_in_part = 0;
+    const auto is_near = [&](const TriangleMesh& mesh, const Triangle& face) {
+      const ImagePlane corners = project_to_image(
+          std::array{mesh.positions[face[0]], mesh.positions[face[1]], mesh.positions[face[2]]},
+          view);
+      return std::any_of(corners.points.begin(), corners.points.end(), [&](const GridPoint& q) {
+        return glm::length(in_pixels(q) - place) < 3.0;
+      });
+    };
+    for (const Triangle& face : whole.triangles)
+      near += is_near(whole, face) ? 1 : 0;
+    for (const Triangle& face : part.mesh.triangles)
+      near_in_part += is_near(part.mesh, face) ? 1 : 0;
+    CHECK(near > 20);
+    CHECK(near_in_part == near);
+  }
+}
+
+TEST_CASE("changes are found whatever the order of the faces", "[stitch]") {
+  constexpr std::uint64_t kSeed = 11;
+  INFO("seed " << kSeed);
+  shapes::Random random(kSeed);
+  const TriangleMesh before = lattice({2.2, 2.3}, 20, 20, 1.0, 20.0);
+  TriangleMesh after = before;
+  std::vector<std::uint32_t> gone;
+  std::vector<Triangle> kept;
+  for (std::uint32_t f = 0; f < before.triangles.size(); ++f) {
+    if (random.unit() < 0.1) {
+      gone.push_back(f);
+    } else {
+      kept.push_back(before.triangles[f]);
+    }
+  }
+  after.triangles = kept;
+  CHECK(find_face_changes(before, after).gone == gone);
+  CHECK(find_face_changes(before, after).made.empty());
+
+  // Turned faces in another order, new ones between them, and a vertex that moves.
+  for (Triangle& t : after.triangles)
+    std::rotate(t.begin(), t.begin() + static_cast<std::ptrdiff_t>(random.bits() % 3), t.end());
+  for (std::size_t f = after.triangles.size(); f > 1; --f)
+    std::swap(after.triangles[f - 1], after.triangles[random.bits() % f]);
+  const auto tip = static_cast<std::uint32_t>(after.positions.size());
+  after.positions.emplace_back(0.0, 0.0, 1.0);
+  const auto middle = static_cast<std::ptrdiff_t>(after.triangles.size() / 2);
+  after.triangles.insert(after.triangles.begin() + middle, {tip, 0, 1});
+  const std::uint32_t moved = after.triangles.front()[0];
+  after.positions[moved].z += 0.1;
+
+  const FaceChanges changes = find_face_changes(before, after);
+  std::size_t expected_gone = gone.size();
+  for (const Triangle& t : kept)
+    expected_gone += std::count(t.begin(), t.end(), moved) > 0 ? 1 : 0;
+  CHECK(changes.gone.size() == expected_gone);
+  CHECK(changes.made.size() == expected_gone - gone.size() + 1);
+  for (const std::uint32_t f : changes.made) {
+    const Triangle& t = after.triangles[f];
+    CHECK((std::count(t.begin(), t.end(), tip) > 0 || std::count(t.begin(), t.end(), moved) > 0));
   }
 }
 
