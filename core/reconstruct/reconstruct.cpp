@@ -179,8 +179,10 @@ class Run {
   }
 
   /// The plan was made for a part of the points in small images: what it overlooked, in narrow gaps
-  /// above all, is looked for again with the points that are left and the pixels of the scans.
+  /// above all, is looked for again with the points that are left and the pixels of the scans. Not
+  /// where the caller has said how many views there are to be.
   void scan_uncovered() {
+    if (options_.views) return;
     for (int round = 0; round < kCoverRounds; ++round) {
       const std::vector<Vec3> uncovered = uncovered_samples();
       if (uncovered.empty()) break;

@@ -118,7 +118,7 @@ class LostPixels {
   struct Depths {
     double nearest = kNoSample;
     double farthest = -kNoSample;
-    friend bool operator==(const Depths&, const Depths&) = default;
+    bool operator==(const Depths&) const = default;
   };
 
   std::vector<Place> places_;

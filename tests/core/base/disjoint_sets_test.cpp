@@ -29,7 +29,7 @@ TEST_CASE("the lowest number stands for its set, whatever the order of the joins
   std::vector<std::uint32_t> order(kCount - kStride);
   std::iota(order.begin(), order.end(), 0U);
   std::mt19937_64 engine(1);
-  for (int round = 0; round < 20; ++round) {
+  for (std::uint32_t round = 0; round < 20; ++round) {
     std::shuffle(order.begin(), order.end(), engine);
     DisjointSets sets(kCount);
     for (const std::uint32_t i : order)
