@@ -229,14 +229,16 @@ SurfaceFit fit_surface(const PointGrid& cloud, const Vec3& place, const Vec3& no
                        const SurfaceWindow& window) {
   const Frame frame(normal);
   SurfaceFit fit;
-  for (SurfaceWindow tried = window;; tried.radius *= kWiden) {
+  SurfaceWindow tried = window;
+  for (;;) {
     NormalEquations equations;
     for_each_sample(cloud, place, frame, tried, [&](const Sample& s) { equations.add(s); });
     Solution solution = solve(equations);
     const bool is_sure = tells_bending(solution, equations);
     shrink_bending(solution, equations, tried.noise / tried.radius);
     if (solution.size > 0) fit = fit_from(solution, equations.count, frame, tried.radius);
-    if (is_sure || kWiden * tried.radius > window.widest) return fit;
+    tried.radius *= kWiden;
+    if (is_sure || tried.radius > window.widest) return fit;
   }
 }
 

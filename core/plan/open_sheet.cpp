@@ -40,6 +40,7 @@ bool is_open_sheet(Rasterizer& rasterizer, std::span<const Vec3> points, const P
   const Box bounds = robust_bounds(subset);
   const Vec3 origin = bounds.center();
   std::vector<Vec3f> local;
+  local.reserve(subset.size());
   for (const Vec3& p : subset)
     local.emplace_back(p - origin);
   DrawPoints cloud{.positions = local};

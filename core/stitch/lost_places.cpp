@@ -125,10 +125,8 @@ class CellsNear {
     bounds_.lower -= Vec3(distance);
     bounds_.upper += Vec3(distance);
     for (const Vec3& place : places) {
-      for_each_cell({place - Vec3(distance), place + Vec3(distance)}, [&](std::size_t cell) {
-        is_near_[cell] = 1;
-        return false;
-      });
+      for_each_cell({place - Vec3(distance), place + Vec3(distance)},
+                    [&](std::size_t cell) { is_near_[cell] = 1; });
     }
   }
 
@@ -138,7 +136,9 @@ class CellsNear {
       if (box.lower[axis] > bounds_.upper[axis] || bounds_.lower[axis] > box.upper[axis])
         return false;
     }
-    return for_each_cell(box, [&](std::size_t cell) { return is_near_[cell] != 0; });
+    bool meets = false;
+    for_each_cell(box, [&](std::size_t cell) { meets = meets || is_near_[cell] != 0; });
+    return meets;
   }
 
  private:
@@ -156,18 +156,17 @@ class CellsNear {
     return cell;
   }
 
-  /// Visits cells that the box meets until one visit returns true; whether one did.
+  /// Visits the cells that the box meets.
   template <class Visit>
-  bool for_each_cell(const Box& box, const Visit& visit) const {
+  void for_each_cell(const Box& box, const Visit& visit) const {
     const auto first = cell_of(box.lower), last = cell_of(box.upper);
     for (std::size_t z = first[2]; z <= last[2]; ++z) {
       for (std::size_t y = first[1]; y <= last[1]; ++y) {
         for (std::size_t x = first[0]; x <= last[0]; ++x) {
-          if (visit((z * kSide + y) * kSide + x)) return true;
+          visit((z * kSide + y) * kSide + x);
         }
       }
     }
-    return false;
   }
 
   Box bounds_;
