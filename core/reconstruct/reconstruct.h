@@ -58,8 +58,8 @@ struct ReconstructResult {
 };
 
 /// From raw data to a clean mesh in one call: chooses the resolution, plans views, scans and
-/// stitches each, fills what is left by views of what is uncovered and into the holes, finishes, and
-/// checks.
+/// stitches each, fills what is left by views of what is uncovered and into the holes, finishes,
+/// and checks.
 /// @throws InvalidArgument if the scene is empty, has fewer than three distinct points, or all on a
 ///     line; or if an option is out of range.
 [[nodiscard]] ReconstructResult reconstruct(const Scene& scene, Rasterizer& rasterizer,
