@@ -110,7 +110,8 @@ class Judge {
   }
 
   [[nodiscard]] bool is_acceptable(const Triangle& t) const {
-    return is_short_enough(t) && is_flat_enough(t) && is_free_of_old_faces(t);
+    return is_short_enough(t) && is_flat_enough(t) && is_free_of_old_faces(t) &&
+           !is_seen_through(t);
   }
 
  private:
@@ -168,6 +169,36 @@ class Judge {
     if (area <= kFlatArea * std::max(glm::dot(ab, ab), glm::dot(ac, ac))) return false;
     const Vec3 toward_viewer = seam_.sheet.image().view().toward_viewer(a);
     return glm::dot(normal, toward_viewer) >= options_.min_strip_cosine * area;
+  }
+
+  /// Whether the scan saw past one of the long edges: one that is longer than the widest gap
+  /// follows a tilted sheet, or it leads through the air from one to the next, as over a slot.
+  [[nodiscard]] bool is_seen_through(const Triangle& t) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const GridPoint& from = local_.points[t[k]];
+      const GridPoint& to = local_.points[t[(k + 1) % 3]];
+      const double depth = seam_.image.depths[local_.vertices[t[k]]];
+      const double side = seam_.sheet.image().view().pixel_size(depth);
+      const double length = glm::length(position(t[k]) - position(t[(k + 1) % 3]));
+      if (length <= longest_allowed(t) * side) continue;
+      const Pixel middle = nearest_pixel({(from.x + to.x) / 2, (from.y + to.y) / 2});
+      if (is_behind(middle, t)) return true;
+    }
+    return false;
+  }
+
+  /// Whether the sample of the pixel lies behind the plane of the triangle.
+  [[nodiscard]] bool is_behind(Pixel pixel, const Triangle& t) const {
+    const RangeImage& image = seam_.sheet.image();
+    if (!image.extent().contains(pixel) || !image.has_sample(pixel)) return false;
+    const Vec3 a = position(t[0]);
+    const Vec3 normal = area_vector(a, position(t[1]), position(t[2]));
+    const Vec3 sample = image.position(pixel);
+    const Vec3 toward_viewer = image.view().toward_viewer(sample);
+    // Along the line of sight, which is_flat_enough() keeps from running beside the plane.
+    const double behind = glm::dot(normal, a - sample) / glm::dot(normal, toward_viewer);
+    const double stretch = sheet_near(grid_point(pixel)).stretch;
+    return behind > seam_.sheet.tolerance(stretch, image[pixel], options_.band);
   }
 
   [[nodiscard]] bool is_free_of_old_faces(const Triangle& t) const {

@@ -17,6 +17,8 @@ namespace rangezip {
 struct FillStripOptions {
   double max_gap = 3.5;             ///< pixels; longest edge of a strip triangle in the image
   double min_strip_cosine = 0.139;  ///< of the angle to the line of sight
+  double band = 1.0;                ///< pixel sides times stretch; samples this far behind a
+                                    ///< triangle were seen past it
 };
 
 struct FilledStrip {
@@ -38,8 +40,9 @@ struct Seam {
 /// Fills the strip between the patch and the old surface: the triangles of the constrained
 /// Delaunay triangulation of the segments in the image that lie outside of the patch, near it, are
 /// not too long in the image or in space, nor too steep, overlap no old face around their
-/// corners, and whose directed edges are free. In the place of a removed wide face triangles may be
-/// far and as long as that was.
+/// corners, and whose directed edges are free. Edges that only the tilt of the sheet lets be so
+/// long must not lead through the air: where the scan saw something behind their middle. In the
+/// place of a removed wide face triangles may be far and as long as that was.
 /// @param edges of the surface near the seam; receives the edges of the new faces, numbered as
 ///     they are in the result from `first_face` on
 [[nodiscard]] FilledStrip fill_strip(const Seam& seam, EdgeMap& edges, std::uint32_t first_face,

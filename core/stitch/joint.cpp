@@ -246,7 +246,9 @@ void fill_seam(Joint& joint, const PatchScan& scan, const PatchSheet& sheet,
                   .segments = seam.segments,
                   .old_faces = std::span(joint.mesh.triangles).first(joint.old_faces)},
                  seam.edges, static_cast<std::uint32_t>(joint.mesh.triangles.size()),
-                 {.max_gap = options.max_gap, .min_strip_cosine = options.min_strip_cosine});
+                 {.max_gap = options.max_gap,
+                  .min_strip_cosine = options.min_strip_cosine,
+                  .band = options.band});
   report.strip_faces = strip.faces.size();
   report.rejected_strip_faces = strip.rejected_faces;
   for (const Triangle& face : strip.faces) {

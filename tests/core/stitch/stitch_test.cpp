@@ -206,6 +206,22 @@ TEST_CASE("a gap is not closed by steep faces", "[stitch]") {
   CHECK(report_mesh(stitched(mesh, scan, method)).components == 2);
 }
 
+TEST_CASE("a gap in a tilted sheet is closed unless the scan saw through it", "[stitch]") {
+  const StitchMethod method = any_method();
+  const double behind = GENERATE(0.0, 8.0);  // of the samples between the two parts
+  const bool is_slot = behind > 0.0;
+  const auto depth = [behind](Pixel p) {
+    const bool is_between = p.x == 26 || p.x == 27;
+    return 150.0 - 2.0 * p.x + (is_between ? behind : 0.0);
+  };
+  const TriangleMesh mesh = stitched({}, hand_scan(depth, rectangle({5, 10}, {25, 30})), method);
+  const Scan scan = hand_scan(depth, rectangle({28, 10}, {48, 30}), mesh);
+  const TriangleMesh both = stitched(mesh, scan, method);
+  const double stretch = std::sqrt(5.0);
+  CHECK(area_of(both) == exactly((800.0 + (is_slot ? 0.0 : 60.0)) * stretch));
+  CHECK(report_mesh(both).components == (is_slot ? 2 : 1));
+}
+
 TEST_CASE("a sheet at another depth is not touched", "[stitch]") {
   const StitchMethod method = any_method();
   const double behind = GENERATE(25.0, 15.0);
