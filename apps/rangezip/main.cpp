@@ -4,6 +4,10 @@
 #include <exception>
 #include <new>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include "apps/rangezip/commands.h"
 #include "apps/rangezip/exit_code.h"
 #include "apps/rangezip/interrupt.h"
@@ -96,11 +100,22 @@ int parse_and_run(int argc, char** argv) {
   return run(action);
 }
 
+/// Every pass fills and frees tables of megabytes. Given back to the system they come back page by
+/// page, zeroed, which costs one thread two percent of a run.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int kAnySize = 1 << 30;  // bytes
+  mallopt(M_MMAP_THRESHOLD, kAnySize);
+  mallopt(M_TRIM_THRESHOLD, kAnySize);
+#endif
+}
+
 }  // namespace
 
 }  // namespace rangezip::app
 
 int main(int argc, char** argv) {
+  rangezip::app::keep_freed_memory();
   try {
     return rangezip::app::parse_and_run(argc, argv);
   } catch (const std::exception& error) {

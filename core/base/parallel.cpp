@@ -102,6 +102,13 @@ void parallel_for(std::size_t count, std::size_t grain,
 
 #endif
 
+void run_side_by_side(const std::function<void()>& one, const std::function<void()>& other) {
+  parallel_for(2, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      i == 0 ? one() : other();
+  });
+}
+
 void for_each_row(int height, const std::function<void(int)>& row) {
   constexpr std::size_t kRowsPerBlock = 8;
   parallel_for(static_cast<std::size_t>(std::max(0, height)), kRowsPerBlock,

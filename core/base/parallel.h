@@ -21,6 +21,9 @@ void run_with_threads(int threads, const std::function<void()>& work);
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 
+/// Calls both, at the same time if there are two threads; neither may write what the other reads.
+void run_side_by_side(const std::function<void()>& one, const std::function<void()>& other);
+
 /// parallel_for over image rows: calls row(y) for each y in [0, height).
 void for_each_row(int height, const std::function<void(int y)>& row);
 

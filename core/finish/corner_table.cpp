@@ -3,7 +3,15 @@
 #include <algorithm>
 #include <cassert>
 
+#include "core/base/parallel.h"
+
 namespace rangezip {
+
+namespace {
+
+constexpr std::size_t kVerticesPerBlock = 16384;
+
+}  // namespace
 
 CornerTable::CornerTable(const std::vector<Triangle>& triangles, std::size_t vertex_count)
     : corner_of_(vertex_count, kNone) {
@@ -30,14 +38,19 @@ void CornerTable::link_half_edges() {
   std::vector<std::uint32_t> place(starts.begin(), starts.end() - 1);
   for (std::uint32_t c = 0; c < vertices_.size(); ++c)
     sorted[place[low_of(c)]++] = c;
-  for (std::size_t low = 0; low + 1 < starts.size(); ++low) {
-    for (std::uint32_t i = starts[low]; i < starts[low + 1]; ++i) {
-      if (vertex(sorted[i]) != low) continue;
-      for (std::uint32_t j = starts[low]; j < starts[low + 1]; ++j) {
-        if (head(sorted[j]) == low && vertex(sorted[j]) == head(sorted[i])) {
-          link(sorted[i], sorted[j]);
-        }
-      }
+  // Half-edges with different lower vertices are never opposite, so blocks do not meet.
+  parallel_for(corner_of_.size(), kVerticesPerBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t low = begin; low < end; ++low)
+      link_opposites(std::span(sorted).subspan(starts[low], starts[low + 1] - starts[low]), low);
+  });
+}
+
+/// Links the half-edges of one lower vertex that are opposite.
+void CornerTable::link_opposites(std::span<const std::uint32_t> corners, std::size_t low) {
+  for (const std::uint32_t leaving : corners) {
+    if (vertex(leaving) != low) continue;
+    for (const std::uint32_t arriving : corners) {
+      if (head(arriving) == low && vertex(arriving) == head(leaving)) link(leaving, arriving);
     }
   }
 }
@@ -67,9 +80,15 @@ std::vector<Triangle> CornerTable::triangles() const {
 }
 
 bool CornerTable::are_neighbors(std::uint32_t a, std::uint32_t b) const {
-  bool found = false;
-  for_each_neighbor(a, [&](std::uint32_t v) { found = found || v == b; });
-  return found;
+  const std::uint32_t first = corner_of_[a];
+  for (std::uint32_t c = first; c != kNone;) {
+    if (head(c) == b) return true;
+    const std::uint32_t arriving = previous(c);
+    c = across_[arriving];
+    if (c == kNone) return vertex(arriving) == b;
+    if (c == first) return false;
+  }
+  return false;
 }
 
 bool CornerTable::is_flip_ok(std::uint32_t corner) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/mesh/triangle_mesh.h"
@@ -112,6 +113,7 @@ class CornerTable {
 
  private:
   void link_half_edges();
+  void link_opposites(std::span<const std::uint32_t> corners, std::size_t low);
   void link(std::uint32_t a, std::uint32_t b);
   void set_corner_of(std::uint32_t vertex, std::uint32_t some_corner);
 

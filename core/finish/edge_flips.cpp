@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/base/parallel.h"
 #include "core/finish/edge_changes.h"
 #include "core/finish/triangle_shape.h"
 
@@ -32,20 +33,47 @@ bool keeps_sides(const std::vector<Vec3>& p, const Diamond& d) {
          !(glm::dot(new_a, old_y) < kMinCosine) && !(glm::dot(new_b, old_x) < kMinCosine);
 }
 
-/// Turns every inner edge for which is_better(diamond) holds.
-template <class IsBetter, class Turned>
-std::size_t flip_where(CornerTable& table, const IsBetter& is_better, const Turned& turned) {
+/// One per corner: 1 where it names an inner edge for which is_better(diamond) holds.
+template <class IsBetter>
+std::vector<std::uint8_t> better_edges(const CornerTable& table, const IsBetter& is_better) {
+  constexpr std::size_t kCornersPerBlock = 8192;
+  std::vector<std::uint8_t> better(table.corner_count(), 0);
+  parallel_for(better.size(), kCornersPerBlock, [&](std::size_t begin, std::size_t end) {
+    for (auto c = static_cast<std::uint32_t>(begin); c < end; ++c)
+      better[c] = table.names_inner_edge(c) && is_better(Diamond(table, c)) ? 1 : 0;
+  });
+  return better;
+}
+
+/// Turns every inner edge for which is_better(diamond) holds, one after the other. What is_better()
+/// says of the edges as they are at first is found out in parallel.
+/// @param is_stale whether a turn has changed what is_better() knows of the corners of a diamond
+template <class IsBetter, class IsStale, class Turned>
+std::size_t flip_where(CornerTable& table, const IsBetter& is_better, const IsStale& is_stale,
+                       const Turned& turned) {
+  const std::vector<std::uint8_t> better = better_edges(table, is_better);
+  std::vector<std::uint8_t> is_changed(better.size(), 0);  // another edge, or in another diamond
   std::size_t count = 0;
   for (std::uint32_t c = 0; c < table.corner_count(); ++c) {
     if (!table.names_inner_edge(c)) continue;
     const Diamond d(table, c);
-    if (!is_better(d) || !table.is_flip_ok(c)) continue;
+    const bool is_known = is_changed[c] == 0 && !is_stale(d);
+    if (!(is_known ? better[c] != 0 : is_better(d)) || !table.is_flip_ok(c)) continue;
     table.flip(c);
+    for (const std::uint32_t face : {c / 3, table.across(CornerTable::next(c)) / 3}) {
+      for (std::uint32_t k = 3 * face; k < 3 * face + 3; ++k) {
+        is_changed[k] = 1;
+        if (table.across(k) != CornerTable::kNone) is_changed[table.across(k)] = 1;
+      }
+    }
     turned(d);
     ++count;
   }
   return count;
 }
+
+constexpr auto kNeverStale = [](const Diamond&) { return false; };
+constexpr auto kIgnore = [](const Diamond&) {};
 
 /// Neighbours of every vertex; at the boundary as many more as are missing at a straight one.
 std::vector<int> valences_of(const CornerTable& table) {
@@ -80,7 +108,7 @@ std::size_t flip_for_angles(CornerTable& table, const std::vector<Vec3>& positio
     return angle_after_flip(positions, d) >= angle_before_flip(positions, d) + kGain &&
            keeps_sides(positions, d);
   };
-  return flip_where(table, is_better, [](const Diamond&) {});
+  return flip_where(table, is_better, kNeverStale, kIgnore);
 }
 
 std::size_t flip_for_valence(CornerTable& table, const std::vector<Vec3>& positions) {
@@ -98,11 +126,17 @@ std::size_t flip_for_valence(CornerTable& table, const std::vector<Vec3>& positi
     if (!mends && !(is_more_regular && after >= std::min(before, kSmallAngle))) return false;
     return keeps_sides(positions, d);
   };
-  return flip_where(table, is_better, [&](const Diamond& d) {
+  std::vector<std::uint8_t> is_stale(valences.size(), 0);
+  const auto any_is_stale = [&](const Diamond& d) {
+    return (is_stale[d.a] | is_stale[d.b] | is_stale[d.x] | is_stale[d.y]) != 0;
+  };
+  return flip_where(table, is_better, any_is_stale, [&](const Diamond& d) {
     --valences[d.a];
     --valences[d.b];
     ++valences[d.x];
     ++valences[d.y];
+    for (const std::uint32_t v : {d.a, d.b, d.x, d.y})
+      is_stale[v] = 1;
   });
 }
 
@@ -124,7 +158,7 @@ std::size_t flip_for_normals(CornerTable& table, const std::vector<Vec3>& positi
         deviation(positions, normals, d.a, d.y, d.x) + deviation(positions, normals, d.b, d.x, d.y);
     return after < kAlignedGain * before;
   };
-  return flip_where(table, is_better, [](const Diamond&) {});
+  return flip_where(table, is_better, kNeverStale, kIgnore);
 }
 
 }  // namespace rangezip

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/parallel.h"
+
 namespace rangezip {
 namespace {
 
@@ -42,16 +44,10 @@ FaceGrid::FaceGrid(const TriangleMesh& mesh, const CornerTable& table, double re
     for_each_cell({glm::min(a, b) - margin, glm::max(a, b) + margin},
                   [&](std::size_t at) { is_asked[at] = 1; });
   }
+  const std::vector<std::uint32_t> near = faces_in(is_asked);
   starts_.assign(cell_count + 1, 0);
-  std::vector<std::uint32_t> near;
-  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
-    bool is_near = false;
-    for_each_cell(box_of(f), [&](std::size_t at) {
-      starts_[at + 1] += is_asked[at];
-      is_near = is_near || is_asked[at] != 0;
-    });
-    if (is_near) near.push_back(f);
-  }
+  for (const std::uint32_t f : near)
+    for_each_cell(box_of(f), [&](std::size_t at) { starts_[at + 1] += is_asked[at]; });
   for (std::size_t c = 1; c <= cell_count; ++c)
     starts_[c] += starts_[c - 1];
   entries_.resize(starts_.back());
@@ -63,6 +59,20 @@ FaceGrid::FaceGrid(const TriangleMesh& mesh, const CornerTable& table, double re
   // Filling moved every start to the next one's place.
   std::copy_backward(starts_.begin(), starts_.end() - 1, starts_.end());
   starts_.front() = 0;
+}
+
+std::vector<std::uint32_t> FaceGrid::faces_in(const std::vector<std::uint8_t>& is_asked) const {
+  constexpr std::size_t kFacesPerBlock = 8192;
+  std::vector<std::uint8_t> is_in(mesh_.triangles.size(), 0);
+  parallel_for(is_in.size(), kFacesPerBlock, [&](std::size_t begin, std::size_t end) {
+    for (auto f = static_cast<std::uint32_t>(begin); f < end; ++f)
+      for_each_cell(box_of(f), [&](std::size_t at) { is_in[f] |= is_asked[at]; });
+  });
+  std::vector<std::uint32_t> faces;
+  for (std::uint32_t f = 0; f < is_in.size(); ++f) {
+    if (is_in[f] != 0) faces.push_back(f);
+  }
+  return faces;
 }
 
 bool FaceGrid::has_face_within(const Vec3& place, double distance) const {

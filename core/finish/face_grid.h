@@ -28,6 +28,9 @@ class FaceGrid {
   [[nodiscard]] Cell cell_at(const Vec3& place) const;
   template <class Visit>
   void for_each_cell(const Box& box, Visit visit) const;
+  /// The faces that meet a marked (1) cell.
+  [[nodiscard]] std::vector<std::uint32_t> faces_in(
+      const std::vector<std::uint8_t>& is_asked) const;
   [[nodiscard]] Box box_of(std::uint32_t face) const;
 
   const TriangleMesh& mesh_;

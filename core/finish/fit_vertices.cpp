@@ -36,9 +36,16 @@ class Fitter {
         surface_(surface),
         window_(window),
         table_(mesh.triangles, mesh.positions.size()),
-        normals_(mesh.positions.size()) {
-    for (std::uint32_t v = 0; v < normals_.size(); ++v)
-      normals_[v] = vertex_normal(table_, mesh.positions, v);
+        normals_(mesh.positions.size()),
+        areas_(mesh.triangles.size()) {
+    parallel_for(normals_.size(), kPerBlock, [&](std::size_t begin, std::size_t end) {
+      for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v)
+        normals_[v] = vertex_normal(table_, mesh.positions, v);
+    });
+    parallel_for(areas_.size(), kPerBlock, [&](std::size_t begin, std::size_t end) {
+      for (auto f = static_cast<std::uint32_t>(begin); f < end; ++f)
+        areas_[f] = 0.5 * glm::length(face_area_vector(table_, mesh.positions, f));
+    });
   }
 
   void run() {
@@ -47,7 +54,7 @@ class Fitter {
     for (std::size_t f = 0; f < gaps.size(); ++f) {
       for (std::size_t k = 0; k < 3; ++k) {
         right[mesh_.triangles[f][k]] += gaps[f][k];
-        lumped[mesh_.triangles[f][k]] += area_of(f) / 3.0;
+        lumped[mesh_.triangles[f][k]] += areas_[f] / 3.0;
       }
     }
     std::vector<double> shift(normals_.size(), 0.0);
@@ -61,11 +68,6 @@ class Fitter {
   }
 
  private:
-  [[nodiscard]] double area_of(std::size_t face) const {
-    return 0.5 *
-           glm::length(face_area_vector(table_, mesh_.positions, static_cast<std::uint32_t>(face)));
-  }
-
   /// For each face the integral of (height of the surface over it) times each corner's hat
   /// function.
   [[nodiscard]] std::vector<CornerValues> integrate_gaps() const {
@@ -90,7 +92,7 @@ class Fitter {
       const SurfaceFit fit = fit_surface(surface_, place, normal, window_);
       if (!fit.is_found || glm::dot(fit.normal, normal) < kMinCosine) continue;
       for (std::size_t k = 0; k < 3; ++k)
-        sums[k] += area_of(face) / 3.0 * w[k] * fit.height;
+        sums[k] += areas_[face] / 3.0 * w[k] * fit.height;
     }
     return sums;
   }
@@ -102,7 +104,7 @@ class Fitter {
       const Triangle& t = mesh_.triangles[f];
       const double sum = values[t[0]] + values[t[1]] + values[t[2]];
       for (const std::uint32_t v : t)
-        product[v] += kOffDiagonal * area_of(f) * (sum + values[v]);
+        product[v] += kOffDiagonal * areas_[f] * (sum + values[v]);
     }
     return product;
   }
@@ -120,6 +122,7 @@ class Fitter {
   SurfaceWindow window_;
   CornerTable table_;
   std::vector<Vec3> normals_;
+  std::vector<double> areas_;  ///< of the faces
 };
 
 }  // namespace

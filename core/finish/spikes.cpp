@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/base/parallel.h"
+
 namespace rangezip {
 namespace {
 
@@ -71,15 +73,35 @@ std::optional<Vec3> place_in_plane(std::uint32_t v, const std::vector<Vec3>& pos
   return ring->center + (sum / static_cast<double>(in_plane)) * ring->normal;
 }
 
+bool is_fixed(std::uint32_t v, const CornerTable& table) {
+  return table.corner_of(v) == CornerTable::kNone || table.is_boundary(v);
+}
+
+/// Marks the spikes as the positions are; once one has moved, its neighbours are to be asked again.
+std::vector<std::uint8_t> spikes_of(const std::vector<Vec3>& positions, const CornerTable& table,
+                                    const PointGrid& cloud, double h) {
+  constexpr std::size_t kPerBlock = 1024;
+  std::vector<std::uint8_t> is_spike(table.vertex_count(), 0);
+  parallel_for(is_spike.size(), kPerBlock, [&](std::size_t begin, std::size_t end) {
+    for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
+      if (is_fixed(v, table)) continue;
+      is_spike[v] = place_in_plane(v, positions, table, cloud, h) ? 1 : 0;
+    }
+  });
+  return is_spike;
+}
+
 }  // namespace
 
 std::size_t flatten_spikes(std::vector<Vec3>& positions, const CornerTable& table,
                            const PointGrid& cloud, double pixel_size) {
+  std::vector<std::uint8_t> is_asked = spikes_of(positions, table, cloud, pixel_size);
   std::size_t count = 0;
   for (std::uint32_t v = 0; v < table.vertex_count(); ++v) {
-    if (table.corner_of(v) == CornerTable::kNone || table.is_boundary(v)) continue;
+    if (is_asked[v] == 0 || is_fixed(v, table)) continue;
     if (const auto place = place_in_plane(v, positions, table, cloud, pixel_size)) {
       positions[v] = *place;
+      table.for_each_neighbor(v, [&](std::uint32_t w) { is_asked[w] = 1; });
       ++count;
     }
   }

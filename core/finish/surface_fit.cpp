@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <span>
+#include <utility>
 
 namespace rangezip {
 namespace {
@@ -41,12 +44,20 @@ Terms terms_at(const Sample& s) {
   return {1.0, s.u, s.v, s.u * s.u, s.u * s.v, s.v * s.v};
 }
 
+/// Without loops: GCC makes pairs of their steps, which then wait for terms that have just been
+/// stored one by one, for most of the time of a fit.
+template <std::size_t... I>
+void add_scaled(Terms& sum, const Terms& terms, double weight, std::index_sequence<I...>) {
+  ((sum[I] += weight * terms[I]), ...);
+}
+
+template <std::size_t... I>
+void add_rows(TermMatrix& matrix, const Terms& terms, double weight, std::index_sequence<I...>) {
+  (add_scaled(matrix[I], terms, weight * terms[I], std::make_index_sequence<I + 1>{}), ...);
+}
+
 void add_product(TermMatrix& matrix, const Terms& terms, double weight) {
-  for (std::size_t i = 0; i < kTerms; ++i) {
-    const double weighted = weight * terms[i];
-    for (std::size_t j = 0; j <= i; ++j)
-      matrix[i][j] += weighted * terms[j];
-  }
+  add_rows(matrix, terms, weight, std::make_index_sequence<kTerms>{});
 }
 
 struct NormalEquations {
@@ -57,8 +68,7 @@ struct NormalEquations {
   void add(const Sample& s) {
     const Terms terms = terms_at(s);
     add_product(matrix, terms, s.weight);
-    for (std::size_t i = 0; i < kTerms; ++i)
-      right[i] += s.weight * s.z * terms[i];
+    add_scaled(right, terms, s.weight * s.z, std::make_index_sequence<kTerms>{});
     ++count;
   }
 };
@@ -76,6 +86,16 @@ struct ScatterSums {
   }
   [[nodiscard]] double at(std::size_t i, std::size_t j) const {
     return i >= j ? squared[i][j] : squared[j][i];
+  }
+};
+
+struct MeasuredSums {
+  NormalEquations equations;
+  ScatterSums scatter;
+
+  void add(const Sample& s) {
+    equations.add(s);
+    scatter.add(s);
   }
 };
 
@@ -209,18 +229,50 @@ SurfaceScatter scatter_from(const Solution& solution, const NormalEquations& equ
   return scatter;
 }
 
-/// Calls visit(sample) for every point that counts.
-template <class Visit>
-void for_each_sample(const PointGrid& cloud, const Vec3& place, const Frame& frame,
-                     const SurfaceWindow& window, const Visit& visit) {
+/// A point that may count.
+struct Candidate {
+  Vec3 offset;  ///< from the place, model units
+  double z;     ///< along the normal
+  double nearness;
+  double count;
+};
+
+/// Adds points that count. On its own and with copies: within the loop that chooses the points,
+/// sums stay in no register.
+template <class Sums>
+[[gnu::noinline]] void add_chosen(std::span<const Candidate> chosen, const Frame& axes,
+                                  double per_radius, Sums& sums) {
+  const Frame frame = axes;
+  Sums local = sums;
+  for (const auto& [d, z, nearness, count] : chosen) {
+    local.add(Sample{glm::dot(d, frame.u) * per_radius, glm::dot(d, frame.v) * per_radius,
+                     z * per_radius, count * nearness * nearness * nearness});
+  }
+  sums = local;
+}
+
+/// Adds every point that counts. They are chosen in batches, without a branch: most points near a
+/// place do not count, in no order that a processor could foresee.
+template <class Sums>
+void add_samples(const PointGrid& cloud, const Vec3& place, const Frame& frame,
+                 const SurfaceWindow& window, Sums& sums) {
+  constexpr std::size_t kBatch = 64;
+  std::array<Candidate, kBatch> batch;
+  std::size_t chosen = 0;
   const double per_radius = 1.0 / window.radius;
+  const double height = window.height;
+  const Vec3 normal = frame.normal;
   cloud.for_each_counted_near(place, window.radius, [&](const Vec3& d, double count) {
-    const double z = glm::dot(d, frame.normal);
+    const double z = glm::dot(d, normal);
     const double nearness = 1.0 - (glm::dot(d, d) - z * z) * per_radius * per_radius;
-    if (nearness <= 0.0 || std::abs(z) > window.height) return;
-    visit(Sample{glm::dot(d, frame.u) * per_radius, glm::dot(d, frame.v) * per_radius,
-                 z * per_radius, count * nearness * nearness * nearness});
+    batch[chosen] = {d, z, nearness, count};
+    const bool is_beside = nearness <= 0.0, is_off = std::abs(z) > height;
+    chosen += static_cast<std::size_t>(!is_beside) & static_cast<std::size_t>(!is_off);
+    if (chosen < kBatch) return;
+    add_chosen(std::span<const Candidate>(batch), frame, per_radius, sums);
+    chosen = 0;
   });
+  add_chosen(std::span<const Candidate>(batch).first(chosen), frame, per_radius, sums);
 }
 
 }  // namespace
@@ -232,7 +284,7 @@ SurfaceFit fit_surface(const PointGrid& cloud, const Vec3& place, const Vec3& no
   SurfaceWindow tried = window;
   for (;;) {
     NormalEquations equations;
-    for_each_sample(cloud, place, frame, tried, [&](const Sample& s) { equations.add(s); });
+    add_samples(cloud, place, frame, tried, equations);
     Solution solution = solve(equations);
     const bool is_sure = tells_bending(solution, equations);
     shrink_bending(solution, equations, tried.noise / tried.radius);
@@ -245,15 +297,11 @@ SurfaceFit fit_surface(const PointGrid& cloud, const Vec3& place, const Vec3& no
 MeasuredFit measure_surface(const PointGrid& cloud, const Vec3& place, const Vec3& normal,
                             const SurfaceWindow& window) {
   const Frame frame(normal);
-  NormalEquations equations;
-  ScatterSums sums;
-  for_each_sample(cloud, place, frame, window, [&](const Sample& s) {
-    equations.add(s);
-    sums.add(s);
-  });
-  const Solution solution = solve(equations);
-  return {fit_from(solution, equations.count, frame, window.radius),
-          scatter_from(solution, equations, sums, window.radius)};
+  MeasuredSums sums;
+  add_samples(cloud, place, frame, window, sums);
+  const Solution solution = solve(sums.equations);
+  return {fit_from(solution, sums.equations.count, frame, window.radius),
+          scatter_from(solution, sums.equations, sums.scatter, window.radius)};
 }
 
 }  // namespace rangezip

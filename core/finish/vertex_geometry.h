@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/geometry.h"
+#include "core/base/parallel.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/triangle_shape.h"
 
@@ -29,16 +30,19 @@ namespace rangezip {
 /// The values, one a vertex, each moved by `share` of the way to the mean of its neighbours'.
 [[nodiscard]] inline std::vector<double> smoothed(const CornerTable& table,
                                                   const std::vector<double>& values, double share) {
+  constexpr std::size_t kPerBlock = 4096;
   std::vector<double> smooth = values;
-  for (std::uint32_t v = 0; v < values.size(); ++v) {
-    double sum = 0.0;
-    int count = 0;
-    table.for_each_neighbor(v, [&](std::uint32_t w) {
-      sum += values[w];
-      ++count;
-    });
-    if (count > 0) smooth[v] = (1.0 - share) * values[v] + share * sum / count;
-  }
+  parallel_for(values.size(), kPerBlock, [&](std::size_t begin, std::size_t end) {
+    for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
+      double sum = 0.0;
+      int count = 0;
+      table.for_each_neighbor(v, [&](std::uint32_t w) {
+        sum += values[w];
+        ++count;
+      });
+      if (count > 0) smooth[v] = (1.0 - share) * values[v] + share * sum / count;
+    }
+  });
   return smooth;
 }
 

@@ -67,7 +67,7 @@ class NearestStarts {
 /// The nearest of the faces reached by walks from the three nearest of what is seen in the pixel
 /// and the eight around it: one walk alone ends in a local minimum where the mesh is rough.
 NearestFace search_nearest_face(const Grid<PrimitiveId>& seen, Pixel p, const TriangleMesh& mesh,
-                                const EdgeMap& edges, const Vec3& position) {
+                                const OutgoingEdges& edges, const Vec3& position) {
   NearestStarts starts;
   PrimitiveId last = kNoPrimitive;
   for (int k = 0; k < 9; ++k) {
@@ -89,7 +89,7 @@ NearestFace search_nearest_face(const Grid<PrimitiveId>& seen, Pixel p, const Tr
 /// sample. Farther than `reach` pixel sides none corresponds.
 Grid<PrimitiveId> search_nearest_faces(const Grid<PrimitiveId>& seen, const RangeImage& image,
                                        const TriangleMesh& mesh, double reach) {
-  const EdgeMap edges = edges_of(mesh);
+  const OutgoingEdges edges(mesh);
   Grid<PrimitiveId> faces(image.extent(), kNoPrimitive);
   for_each_row(image.extent().height, [&](int y) {
     for (Pixel p{0, y}; p.x < image.extent().width; ++p.x) {

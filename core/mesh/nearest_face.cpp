@@ -14,7 +14,7 @@ Vec3 closest_point(const TriangleMesh& mesh, std::uint32_t face, const Vec3& poi
 
 void keep_nearer(NearestFace& best, const TriangleMesh& mesh, std::uint32_t face,
                  const Vec3& point) {
-  if (face == EdgeMap::kNone) return;
+  if (face == OutgoingEdges::kNone) return;
   const NearestFace candidate = measure_face(mesh, face, point);
   if (candidate.squared_distance < best.squared_distance) best = candidate;
 }
@@ -31,7 +31,7 @@ std::optional<std::size_t> closest_corner(const TriangleMesh& mesh, std::uint32_
 
 /// Looks at the faces that one meets by turning around a corner, one way until the boundary or the
 /// start is reached. A turn in a mesh whose edges are in more than two faces need not come back.
-void turn_around(NearestFace& best, const TriangleMesh& mesh, const EdgeMap& edges,
+void turn_around(NearestFace& best, const TriangleMesh& mesh, const OutgoingEdges& edges,
                  std::uint32_t start, std::size_t corner, bool counter_clockwise,
                  const Vec3& point) {
   constexpr int kMaxTurn = 64;  // faces; a corner of more is not worth the search
@@ -42,12 +42,12 @@ void turn_around(NearestFace& best, const TriangleMesh& mesh, const EdgeMap& edg
     const std::size_t i = t[0] == vertex ? 0 : t[1] == vertex ? 1 : 2;
     face =
         counter_clockwise ? edges.find(vertex, t[(i + 2) % 3]) : edges.find(t[(i + 1) % 3], vertex);
-    if (face == EdgeMap::kNone || face == start) return;
+    if (face == OutgoingEdges::kNone || face == start) return;
     keep_nearer(best, mesh, face, point);
   }
 }
 
-NearestFace step(const TriangleMesh& mesh, const EdgeMap& edges, const NearestFace& here,
+NearestFace step(const TriangleMesh& mesh, const OutgoingEdges& edges, const NearestFace& here,
                  const Vec3& point) {
   const Triangle& t = mesh.triangles[here.face];
   NearestFace best = here;
@@ -64,23 +64,12 @@ NearestFace step(const TriangleMesh& mesh, const EdgeMap& edges, const NearestFa
 
 }  // namespace
 
-EdgeMap edges_of(const TriangleMesh& mesh) {
-  EdgeMap edges(3 * mesh.triangles.size());
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    const Triangle& t = mesh.triangles[f];
-    for (std::size_t i = 0; i < 3; ++i) {
-      edges.insert(t[i], t[(i + 1) % 3], static_cast<std::uint32_t>(f));
-    }
-  }
-  return edges;
-}
-
 NearestFace measure_face(const TriangleMesh& mesh, std::uint32_t face, const Vec3& point) {
   const Vec3 offset = closest_point(mesh, face, point) - point;
   return {face, glm::dot(offset, offset)};
 }
 
-NearestFace walk_to_nearest_face(const TriangleMesh& mesh, const EdgeMap& edges,
+NearestFace walk_to_nearest_face(const TriangleMesh& mesh, const OutgoingEdges& edges,
                                  std::uint32_t start, const Vec3& point) {
   NearestFace here = measure_face(mesh, start, point);
   for (;;) {

@@ -2,13 +2,10 @@
 
 #include <cstdint>
 
-#include "core/mesh/edge_map.h"
+#include "core/mesh/outgoing_edges.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace rangezip {
-
-/// Directed edges of a mesh. Where an edge is in two faces, the first counts. O(faces).
-[[nodiscard]] EdgeMap edges_of(const TriangleMesh& mesh);
 
 /// A face and how far it is.
 struct NearestFace {
@@ -26,9 +23,9 @@ struct NearestFace {
 /// faces across the three edges or, where none is nearer, to the nearest one around the corner that
 /// is nearest to the point. Ends in a local minimum: the local search of
 /// [Kobbelt, Botsch 2000, 4.3]. Ties stay where they are.
-/// @param edges edges_of(mesh)
+/// @param edges of the mesh
 /// @pre start is a face of the mesh
-[[nodiscard]] NearestFace walk_to_nearest_face(const TriangleMesh& mesh, const EdgeMap& edges,
+[[nodiscard]] NearestFace walk_to_nearest_face(const TriangleMesh& mesh, const OutgoingEdges& edges,
                                                std::uint32_t start, const Vec3& point);
 
 }  // namespace rangezip

@@ -75,9 +75,11 @@ class CellGrid {
   [[nodiscard]] std::size_t index_of(const Vec3& p) const {
     return index(coordinate(p.x, 0), coordinate(p.y, 1), coordinate(p.z, 2));
   }
+  [[nodiscard]] int layers() const { return dims_[2]; }
+  /// Visits the cells of a range in the layers from `lowest` to `highest`.
   template <class Visit>
-  void for_each_cell(const CellRange& range, Visit visit) const {
-    for (int z = range.lower[2]; z <= range.upper[2]; ++z) {
+  void for_each_cell(const CellRange& range, int lowest, int highest, Visit visit) const {
+    for (int z = std::max(lowest, range.lower[2]); z <= std::min(highest, range.upper[2]); ++z) {
       for (int y = range.lower[1]; y <= range.upper[1]; ++y) {
         const std::size_t row = index(0, y, z);
         for (int x = range.lower[0]; x <= range.upper[0]; ++x) {
@@ -168,37 +170,27 @@ struct CellLists {
   std::vector<std::uint32_t> large;  ///< not entered
 };
 
-/// Enters every triangle into its cells by a counting sort; with `wanted` only into marked cells.
-CellLists sort_into_cells(const Triangles& triangles, const CellGrid& grid,
-                          std::span<const std::uint8_t> wanted) {
-  CellLists lists;
-  lists.starts.assign(grid.cell_count() + 1, 0);
-  const auto for_each_entry = [&](std::uint32_t i, auto visit) {
-    grid.for_each_cell(grid.range_of(triangles.box(i)), [&](std::size_t cell) {
-      if (wanted.empty() || wanted[cell] != 0) visit(cell);
-    });
-  };
-  std::vector<std::uint32_t> entered;
-  entered.reserve(triangles.size());
-  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-    if (triangles.is_degenerate_at(i)) continue;
-    if (grid.range_of(triangles.box(i)).count() > kLargeTriangleCells) {
-      lists.large.push_back(i);
-      continue;
-    }
-    entered.push_back(i);
-    for_each_entry(i, [&](std::size_t cell) { ++lists.starts[cell + 1]; });
-  }
-  for (std::size_t c = 1; c < lists.starts.size(); ++c)
-    lists.starts[c] += lists.starts[c - 1];
-  lists.entries.resize(lists.starts.back());
-  for (const std::uint32_t i : entered) {
-    for_each_entry(i, [&](std::size_t cell) { lists.entries[lists.starts[cell]++] = i; });
-  }
-  // Filling moved every start to the next one's place.
-  std::copy_backward(lists.starts.begin(), lists.starts.end() - 1, lists.starts.end());
-  lists.starts.front() = 0;
-  return lists;
+/// The cells that each triangle's box meets.
+std::vector<CellRange> ranges_of(const Triangles& triangles, const CellGrid& grid) {
+  std::vector<CellRange> ranges(triangles.size());
+  parallel_for(ranges.size(), kTrianglesPerBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      ranges[i] = grid.range_of(triangles.box(i));
+  });
+  return ranges;
+}
+
+/// Calls body(lower, upper) for slabs of layers of cells, in parallel: what it writes to cells of
+/// its own slab only, it writes in the order of its loops.
+template <class Body>
+void for_each_slab(const CellGrid& grid, std::size_t triangles, const Body& body) {
+  constexpr int kSlabs = 8;  // more share the work better, but look at more triangles in vain
+  const int slabs = triangles < kTrianglesPerBlock ? 1 : kSlabs;
+  const int layers = grid.layers();
+  parallel_for(static_cast<std::size_t>(slabs), 1, [&](std::size_t begin, std::size_t end) {
+    for (auto slab = static_cast<int>(begin); slab < static_cast<int>(end); ++slab)
+      body(slab * layers / slabs, (slab + 1) * layers / slabs - 1);
+  });
 }
 
 // What is asked about a triangle.
@@ -209,6 +201,65 @@ constexpr std::uint8_t kApart = 2;    ///< whether any meets it that is not apar
 /// @param changed empty: all are
 bool is_asked(std::span<const std::uint8_t> changed, std::uint32_t i, std::uint32_t j) {
   return changed.empty() || changed[i] != changed[j] || changed[i] == kChanged;
+}
+
+/// Marks the cells with a pair to compare: with a changed triangle, or with one that is apart from
+/// others and one that has stayed.
+std::vector<std::uint8_t> cells_asked(const Triangles& triangles,
+                                      const std::vector<CellRange>& ranges, const CellGrid& grid,
+                                      std::span<const std::uint8_t> changed) {
+  std::vector<std::uint8_t> kinds(grid.cell_count(), 0);  // in a cell, as bits
+  const auto bit_of = [](std::uint8_t kind) { return static_cast<std::uint8_t>(1U << kind); };
+  for_each_slab(grid, triangles.size(), [&](int lowest, int highest) {
+    for (std::size_t i = 0; i < changed.size(); ++i) {
+      if (changed[i] == kSame) continue;
+      grid.for_each_cell(ranges[i], lowest, highest,
+                         [&](std::size_t cell) { kinds[cell] |= bit_of(changed[i]); });
+    }
+    for (std::size_t i = 0; i < changed.size(); ++i) {
+      if (changed[i] != kSame) continue;
+      grid.for_each_cell(ranges[i], lowest, highest, [&](std::size_t cell) {
+        if (kinds[cell] != 0) kinds[cell] |= bit_of(kSame);
+      });
+    }
+  });
+  for (std::uint8_t& cell : kinds) {
+    const bool has_changed = (cell & bit_of(kChanged)) != 0;
+    const bool has_both = (cell & bit_of(kApart)) != 0 && (cell & bit_of(kSame)) != 0;
+    cell = has_changed || has_both ? 1 : 0;
+  }
+  return kinds;
+}
+
+/// Enters every triangle into its cells by a counting sort; with `wanted` only into marked cells.
+CellLists sort_into_cells(const Triangles& triangles, const std::vector<CellRange>& ranges,
+                          const CellGrid& grid, std::span<const std::uint8_t> wanted) {
+  CellLists lists;
+  lists.starts.assign(grid.cell_count() + 1, 0);
+  std::vector<std::uint8_t> is_entered(triangles.size(), 0);
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    if (triangles.is_degenerate_at(i)) continue;
+    const bool is_large = ranges[i].count() > kLargeTriangleCells;
+    if (is_large) lists.large.push_back(i);
+    is_entered[i] = is_large ? 0 : 1;
+  }
+  const auto for_each_entry = [&](const auto& visit) {
+    for_each_slab(grid, triangles.size(), [&](int lowest, int highest) {
+      for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+        if (is_entered[i] == 0) continue;
+        grid.for_each_cell(ranges[i], lowest, highest, [&](std::size_t cell) {
+          if (wanted.empty() || wanted[cell] != 0) visit(cell, i);
+        });
+      }
+    });
+  };
+  for_each_entry([&](std::size_t cell, std::uint32_t) { ++lists.starts[cell + 1]; });
+  for (std::size_t c = 1; c < lists.starts.size(); ++c)
+    lists.starts[c] += lists.starts[c - 1];
+  lists.entries.resize(lists.starts.back());
+  std::vector<std::uint32_t> next(lists.starts.begin(), lists.starts.end() - 1);
+  for_each_entry([&](std::size_t cell, std::uint32_t i) { lists.entries[next[cell]++] = i; });
+  return lists;
 }
 
 /// Pairs of one cell; a pair that shares several cells is compared in the one that holds the
@@ -287,9 +338,14 @@ std::vector<std::uint32_t> around(const TriangleMesh& mesh,
   Box bounds;
   for (const std::uint32_t i : changed)
     bounds.add(box_of(mesh, mesh.triangles[i]));
+  std::vector<std::uint8_t> is_near(mesh.triangles.size());
+  parallel_for(is_near.size(), kTrianglesPerBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      is_near[i] = boxes_meet(bounds, box_of(mesh, mesh.triangles[i])) ? 1 : 0;
+  });
   std::vector<std::uint32_t> numbers;
-  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (boxes_meet(bounds, box_of(mesh, mesh.triangles[i]))) numbers.push_back(i);
+  for (std::uint32_t i = 0; i < is_near.size(); ++i) {
+    if (is_near[i] != 0) numbers.push_back(i);
   }
   return numbers;
 }
@@ -300,15 +356,10 @@ std::vector<Pair> find_pairs(const Triangles& triangles, std::span<const std::ui
   if (triangles.size() == 0) return pairs;
   const std::size_t max_cells = kCellsPerTriangle * triangles.size();
   const CellGrid grid(triangles.bounds(), kSidesPerCell * triangles.mean_side(), max_cells);
+  const std::vector<CellRange> ranges = ranges_of(triangles, grid);
   std::vector<std::uint8_t> wanted;
-  if (!changed.empty()) {
-    wanted.assign(grid.cell_count(), 0);
-    for (std::size_t i = 0; i < changed.size(); ++i) {
-      if (changed[i] == kSame) continue;
-      grid.for_each_cell(grid.range_of(triangles.box(i)), [&](std::size_t c) { wanted[c] = 1; });
-    }
-  }
-  const CellLists lists = sort_into_cells(triangles, grid, wanted);
+  if (!changed.empty()) wanted = cells_asked(triangles, ranges, grid, changed);
+  const CellLists lists = sort_into_cells(triangles, ranges, grid, wanted);
   collect_cells(triangles, grid, lists, changed, pairs);
   collect_large(triangles, lists.large, changed, pairs);
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {

@@ -239,10 +239,13 @@ class Run {
   void check_result() {
     progress_.at("check", kCheckShare);
     const auto mesh = session_.mesh();
-    result_.report.mesh = report_mesh(*mesh);
-    result_.report.self_intersections = self_intersections(*mesh).size();
-    result_.report.coverage = report_coverage(samples_, *mesh, recipe_.pixel_size);
-    result_.mesh = *mesh;
+    ReconstructReport& report = result_.report;
+    run_side_by_side([&] { report.self_intersections = self_intersections(*mesh).size(); },
+                     [&] {
+                       report.mesh = report_mesh(*mesh);
+                       report.coverage = report_coverage(samples_, *mesh, recipe_.pixel_size);
+                       result_.mesh = *mesh;
+                     });
     clock_.finish("check");
     progress_.at("done", 1.0);
   }

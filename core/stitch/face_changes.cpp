@@ -24,8 +24,12 @@ class Matcher {
   Matcher(const TriangleMesh& before, const TriangleMesh& after)
       : before_(before),
         after_(after),
+        has_stayed_(after.positions.size(), 0),
         is_left_(before.triangles.size(), 0),
-        is_old_(after.triangles.size(), 0) {}
+        is_old_(after.triangles.size(), 0) {
+    for (std::size_t v = 0; v < before.positions.size(); ++v)
+      has_stayed_[v] = before.positions[v] == after.positions[v] ? 1 : 0;
+  }
 
   /// What stays mostly keeps its order, so a walk along both lists pairs most faces at once. Where
   /// new faces stand between, it would look at many in vain: it ends once it has done so for as
@@ -80,15 +84,14 @@ class Matcher {
  private:
   /// None of the corners is new or has moved.
   [[nodiscard]] bool has_stayed(const Triangle& face) const {
-    return std::all_of(face.begin(), face.end(), [&](std::uint32_t v) {
-      return v < before_.positions.size() && before_.positions[v] == after_.positions[v];
-    });
+    return (has_stayed_[face[0]] & has_stayed_[face[1]] & has_stayed_[face[2]]) != 0;
   }
 
   const TriangleMesh& before_;
   const TriangleMesh& after_;
-  std::vector<std::uint8_t> is_left_;  ///< per face before
-  std::vector<std::uint8_t> is_old_;   ///< per face after
+  std::vector<std::uint8_t> has_stayed_;  ///< per vertex after: neither new nor moved
+  std::vector<std::uint8_t> is_left_;     ///< per face before
+  std::vector<std::uint8_t> is_old_;      ///< per face after
 };
 
 }  // namespace

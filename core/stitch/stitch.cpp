@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/parallel.h"
 #include "core/mesh/edge_map.h"
 #include "core/mesh/self_intersection.h"
 #include "core/stitch/clean_up.h"
@@ -187,9 +188,10 @@ std::vector<Pixel> Attempt::lost_pixels() {
   joint_.image.depths.insert(joint_.image.depths.end(), rest.depths.begin(), rest.depths.end());
   const SeenMesh before{part_.mesh, image_};
   const SeenMesh after{joint_.mesh, joint_.image};
-  std::vector<Pixel> lost = find_lost_pixels(before, after, changes_, view);
   const double distance = kLostDistance * pixel_sides_of(scan_.patch, scan_.image).largest;
-  const std::vector<Pixel> places = find_lost_places(before, after, changes_, distance);
+  std::vector<Pixel> lost, places;
+  run_side_by_side([&] { lost = find_lost_pixels(before, after, changes_, view); },
+                   [&] { places = find_lost_places(before, after, changes_, distance); });
   lost.insert(lost.end(), places.begin(), places.end());
   return lost;
 }
@@ -235,8 +237,11 @@ StitchResult stitch(TriangleMesh mesh, const Scan& scan, const StitchOptions& op
     Attempt attempt(part, image, PatchScan(scan, patch, part.face_in_whole), options);
     attempt.join();
     attempt.roll_back_crossings();
-    if (!attempt.is_manifold()) break;
-    const std::vector<Pixel> lost = attempt.lost_pixels();
+    bool is_manifold = false;
+    std::vector<Pixel> lost;
+    run_side_by_side([&] { is_manifold = attempt.is_manifold(); },
+                     [&] { lost = attempt.lost_pixels(); });
+    if (!is_manifold) break;
     StitchReport report = attempt.report();
     report.withdrawn_faces = grid_triangle_count(scan.patch) - grid_triangle_count(patch);
     if (lost.empty()) {

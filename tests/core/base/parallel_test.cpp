@@ -76,5 +76,19 @@ TEST_CASE("loops inside of loops finish", "[base]") {
   CHECK(sum == 40 * 780);
 }
 
+TEST_CASE("run_side_by_side calls both once and passes an exception on", "[base]") {
+  for (const int threads : {1, 2}) {
+    CAPTURE(threads);
+    run_with_threads(threads, [] {
+      int one = 0, other = 0;
+      run_side_by_side([&] { ++one; }, [&] { ++other; });
+      CHECK(one == 1);
+      CHECK(other == 1);
+      CHECK_THROWS_AS(run_side_by_side([] {}, [] { throw std::runtime_error("stop"); }),
+                      std::runtime_error);
+    });
+  }
+}
+
 }  // namespace
 }  // namespace rangezip

@@ -25,7 +25,7 @@ TEST_CASE("the walk over a convex body reaches the nearest face from anywhere on
           "[mesh]") {
   // Outside of a convex body distance has one minimum, so downhill must find it.
   const TriangleMesh mesh = shapes::to_mesh(shapes::sphere(1.0, 12));
-  const EdgeMap edges = edges_of(mesh);
+  const OutgoingEdges edges(mesh);
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     CAPTURE(seed);
     shapes::Random random(seed);
@@ -47,7 +47,7 @@ TEST_CASE("the walk turns around a corner where every edge leads uphill", "[mesh
   }
   for (std::uint32_t i = 0; i < 12; ++i)
     mesh.triangles.push_back({0, 1 + i, 1 + (i + 1) % 12});
-  const EdgeMap edges = edges_of(mesh);
+  const OutgoingEdges edges(mesh);
   for (std::uint32_t target = 0; target < 12; ++target) {
     const Triangle& t = mesh.triangles[target];
     const Vec3 middle = (mesh.positions[t[1]] + mesh.positions[t[2]]) / 4.0;
@@ -59,7 +59,7 @@ TEST_CASE("the walk turns around a corner where every edge leads uphill", "[mesh
 
 TEST_CASE("the walk stops at the boundary and stays on the start where that is nearest", "[mesh]") {
   const TriangleMesh bowl = shapes::to_mesh(shapes::bowl(1.0, 8));
-  const EdgeMap edges = edges_of(bowl);
+  const OutgoingEdges edges(bowl);
   for (std::uint32_t start = 0; start < bowl.triangles.size(); ++start) {
     const Triangle& t = bowl.triangles[start];
     const Vec3 middle = (bowl.positions[t[0]] + bowl.positions[t[1]] + bowl.positions[t[2]]) / 3.0;
