@@ -19,9 +19,9 @@ namespace {
 
 // Angles as cosines, smallest angles as sines.
 constexpr int kRounds = 6;
-constexpr int kTurningRounds = 3;     // after the first; later ones find hardly an edge to turn
-constexpr int kSweeps = 10;           // of solving: the rounds go on with what is left
-constexpr double kSmallAngle = 0.53;  // 32 degrees
+constexpr int kTurningRounds = 4;      // after the first; later ones find hardly an edge to turn
+constexpr int kSweeps = 10;            // of solving: the rounds go on with what is left
+constexpr double kSmallAngle = 0.515;  // 31 degrees
 constexpr double kMostTurn = 0.5;
 constexpr double kSharpest = 0.5;   // edge that may arise
 constexpr double kTurnGain = 0.95;  // of the squared distances: equal ones would turn to and fro
@@ -31,7 +31,7 @@ constexpr std::array kShares{1.0, 0.5, 0.25};  // of the way of a vertex, the fi
 /// more than its root, a tenth of a radian, over an edge, the points decide.
 constexpr double kHold = 0.01;
 constexpr double kHoldAlways = 0.001;  // in points: where there are none
-constexpr double kRelaxStep = 0.5;     // towards the middle of the faces, that is held on to
+constexpr double kRelaxStep = 0.55;    // towards the middle of the faces, that is held on to
 constexpr std::size_t kPerBlock = 1024;
 
 /// The normal equations of the points on a face for how far its plane moves at each corner.
@@ -170,7 +170,8 @@ class Fitter {
     return way - glm::dot(way, normal) * normal;
   }
 
-  /// Each vertex in turn to where it is best, the others where they are [Gauss, Seidel].
+  /// Each vertex in turn to where it is best, the others where they are, as in the method of Gauss
+  /// and Seidel.
   void solve_vertices() {
     for (std::uint32_t v = 0; v < positions_.size(); ++v) {
       if (!table_.is_boundary(v)) shifts_[v] = best_shift(v);

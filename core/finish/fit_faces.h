@@ -13,7 +13,7 @@ namespace rangezip {
 /// vertex comes to lie off a curved surface, on the outer side of its triangles, and slides to
 /// where the surface bends most. Where it does not bend, vertices move towards the middle of their
 /// faces. In six rounds, in each of which points find their faces anew. Vertices and edges stay
-/// where an angle would get both under 32 degrees and smaller than it is, or a face would turn by
+/// where an angle would get both under 31 degrees and smaller than it is, or a face would turn by
 /// more than 60 degrees. The boundary stays. May leave self-intersections where sheets are close
 /// together. Cost: linear in points and faces; in parallel but for 40 visits a face.
 /// @param points of hardly any noise, several a face: fewer than three a vertex leave it
