@@ -15,26 +15,8 @@ constexpr double kFreeCells = 4096.0;
 }  // namespace
 
 FaceGrid::FaceGrid(const TriangleMesh& mesh, const CornerTable& table, double reach) : mesh_(mesh) {
-  const Box bounds = bounds_of(mesh);
-  origin_ = bounds.lower;
-  const Vec3 size = bounds.upper - bounds.lower;
-  double cell = reach;
-  for (;;) {
-    double cells = 1.0;
-    for (int axis = 0; axis < 3; ++axis)
-      cells *= std::floor(size[axis] / cell) + 1.0;
-    if (cells <= kCellsPerFace * static_cast<double>(mesh.triangles.size()) + kFreeCells) break;
-    constexpr double kGrowth = 1.25;
-    cell *= kGrowth;
-  }
-  cells_per_unit_ = 1.0 / cell;
-  for (int axis = 0; axis < 3; ++axis) {
-    dims_[static_cast<std::size_t>(axis)] =
-        static_cast<std::size_t>(size[axis] * cells_per_unit_) + 1;
-  }
-
-  const std::size_t cell_count = dims_[0] * dims_[1] * dims_[2];
-  std::vector<std::uint8_t> is_asked(cell_count, 0);
+  choose_cells(reach);
+  std::vector<std::uint8_t> is_asked(dims_[0] * dims_[1] * dims_[2], 0);
   // A place within reach of the border asks for faces within reach of itself.
   const Vec3 margin(2.0 * reach);
   for (std::uint32_t c = 0; c < table.corner_count(); ++c) {
@@ -44,12 +26,40 @@ FaceGrid::FaceGrid(const TriangleMesh& mesh, const CornerTable& table, double re
     for_each_cell({glm::min(a, b) - margin, glm::max(a, b) + margin},
                   [&](std::size_t at) { is_asked[at] = 1; });
   }
+  sort_faces(is_asked);
+}
+
+FaceGrid::FaceGrid(const TriangleMesh& mesh, double cell) : mesh_(mesh) {
+  choose_cells(cell);
+  sort_faces(std::vector<std::uint8_t>(dims_[0] * dims_[1] * dims_[2], 1));
+}
+
+void FaceGrid::choose_cells(double cell) {
+  const Box bounds = bounds_of(mesh_);
+  origin_ = bounds.lower;
+  const Vec3 size = bounds.upper - bounds.lower;
+  for (;;) {
+    double cells = 1.0;
+    for (int axis = 0; axis < 3; ++axis)
+      cells *= std::floor(size[axis] / cell) + 1.0;
+    if (cells <= kCellsPerFace * static_cast<double>(mesh_.triangles.size()) + kFreeCells) break;
+    constexpr double kGrowth = 1.25;
+    cell *= kGrowth;
+  }
+  cells_per_unit_ = 1.0 / cell;
+  for (int axis = 0; axis < 3; ++axis) {
+    dims_[static_cast<std::size_t>(axis)] =
+        static_cast<std::size_t>(size[axis] * cells_per_unit_) + 1;
+  }
+}
+
+void FaceGrid::sort_faces(const std::vector<std::uint8_t>& is_asked) {
   const std::vector<std::uint32_t> near = faces_in(is_asked);
-  starts_.assign(cell_count + 1, 0);
+  starts_.assign(is_asked.size() + 1, 0);
   for (const std::uint32_t f : near)
     for_each_cell(box_of(f), [&](std::size_t at) { starts_[at + 1] += is_asked[at]; });
-  for (std::size_t c = 1; c <= cell_count; ++c)
-    starts_[c] += starts_[c - 1];
+  for (std::size_t c = 0; c < is_asked.size(); ++c)
+    starts_[c + 1] += starts_[c];
   entries_.resize(starts_.back());
   for (const std::uint32_t f : near) {
     for_each_cell(box_of(f), [&](std::size_t at) {
@@ -73,6 +83,24 @@ std::vector<std::uint32_t> FaceGrid::faces_in(const std::vector<std::uint8_t>& i
     if (is_in[f] != 0) faces.push_back(f);
   }
   return faces;
+}
+
+std::uint32_t FaceGrid::nearest_face(const Vec3& place, double distance) const {
+  std::uint32_t nearest = CornerTable::kNone;
+  double least = distance * distance;
+  for_each_cell({place - distance, place + distance}, [&](std::size_t at) {
+    for (std::size_t i = starts_[at]; i < starts_[at + 1]; ++i) {
+      const Triangle& t = mesh_.triangles[entries_[i]];
+      const Vec3 offset = closest_point_on_triangle(place, mesh_.positions[t[0]],
+                                                    mesh_.positions[t[1]], mesh_.positions[t[2]]) -
+                          place;
+      const double squared = glm::dot(offset, offset);
+      if (squared > least || (squared == least && entries_[i] >= nearest)) continue;
+      least = squared;
+      nearest = entries_[i];
+    }
+  });
+  return nearest;
 }
 
 bool FaceGrid::has_face_within(const Vec3& place, double distance) const {

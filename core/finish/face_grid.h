@@ -19,12 +19,21 @@ class FaceGrid {
   ///     positive
   FaceGrid(const TriangleMesh& mesh, const CornerTable& table, double reach);
 
+  /// All faces, in cubes of about the given side.
+  FaceGrid(const TriangleMesh& mesh, double cell);
+
+  /// The face nearest to the place, of those nearer than `distance`; CornerTable::kNone if none is.
+  [[nodiscard]] std::uint32_t nearest_face(const Vec3& place, double distance) const;
+
   /// Whether a face comes nearer to the place than `distance`, at most the reach.
   [[nodiscard]] bool has_face_within(const Vec3& place, double distance) const;
 
  private:
   using Cell = std::array<std::size_t, 3>;
 
+  void choose_cells(double cell);
+  /// Lists the faces of every marked (1) cell.
+  void sort_faces(const std::vector<std::uint8_t>& is_asked);
   [[nodiscard]] Cell cell_at(const Vec3& place) const;
   template <class Visit>
   void for_each_cell(const Box& box, Visit visit) const;

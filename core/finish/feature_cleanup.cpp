@@ -23,6 +23,7 @@ constexpr double kGain = 0.02;
 constexpr double kNoArea = 0.01;
 constexpr double kHasDirection = 0.1;
 constexpr double kSliverTurn = 0.8;
+constexpr double kFoldedCosine = 0.8;  // of a face back over the one beyond it
 
 class Cleaner {
  public:
@@ -138,9 +139,32 @@ class Cleaner {
     return flip || collapse;
   }
 
+  /// Whether the half-edge's vertex stands on three faces that fold over what is around them, like
+  /// a fin: with it they may turn.
+  [[nodiscard]] bool is_fin(std::uint32_t corner) const {
+    const std::uint32_t v = table_.vertex(corner);
+    if (table_.is_boundary(v)) return false;
+    int faces = 0;
+    bool folds = false;
+    table_.for_each_corner(v, [&](std::uint32_t c) {
+      ++faces;
+      const std::uint32_t beyond = table_.across(CornerTable::next(c));
+      if (beyond == CornerTable::kNone) return;
+      const Vec3 inside = area_of(c / 3), outside = area_of(beyond / 3);
+      folds =
+          folds || (glm::dot(inside, outside) < 0.0 && has_cosine(inside, -outside, kFoldedCosine));
+    });
+    return faces == 3 && folds;
+  }
+  [[nodiscard]] Vec3 area_of(std::uint32_t face) const {
+    const Triangle t = table_.triangle(face);
+    return area_vector(at(t[0]), at(t[1]), at(t[2]));
+  }
+
   /// The smallest angle around after the half-edge's vertex moved into its head; -1 if a face
   /// would turn or lose its area.
   [[nodiscard]] double angle_after_collapse(std::uint32_t corner) const {
+    const bool may_turn = is_fin(corner);
     const Vec3 &from = at(table_.vertex(corner)), &to = at(table_.head(corner));
     double smallest = 1.0;
     for_each_face_after_collapse(table_, corner, [&](std::uint32_t p, std::uint32_t q) {
@@ -148,7 +172,7 @@ class Cleaner {
       const double before = sine_of_smallest_angle(from, at(p), at(q));
       const double after = sine_of_smallest_angle(to, at(p), at(q));
       const bool turns =
-          before > kHasDirection &&
+          !may_turn && before > kHasDirection &&
           !has_cosine(area_vector(from, at(p), at(q)), area_vector(to, at(p), at(q)), kSliverTurn);
       smallest = turns || after <= kNoArea ? -1.0 : std::min(smallest, after);
     });

@@ -17,13 +17,14 @@ struct FeatureCleanupReport {
 /// Tidies the triangles after vertices were pulled onto features: collapses edges shorter than h/2
 /// (never a feature vertex into another kind), turns edges between two faces so that they join
 /// feature vertices, and removes slivers by the collapse or flip that leaves the best angles.
-/// No valid face turns over. @param is_feature per vertex: 1 for those on a feature, 2 at a corner
+/// No valid face turns over but for fins, three faces around a vertex that fold over those beyond
+/// them. @param is_feature per vertex: 1 for those on a feature, 2 at a corner
 /// of it
 FeatureCleanupReport clean_features(CornerTable& table, const std::vector<Vec3>& positions,
                                     const std::vector<std::uint8_t>& is_feature, double pixel_size);
 
 /// Removes triangles with an angle under 11 degrees by the collapse or flip that leaves the best
-/// angles, where no valid face turns over.
+/// angles, where no valid face turns over but those of a fin.
 FeatureCleanupReport remove_slivers(CornerTable& table, const std::vector<Vec3>& positions);
 
 }  // namespace rangezip

@@ -10,6 +10,7 @@
 #include "core/finish/corner_table.h"
 #include "core/finish/extend_border.h"
 #include "core/finish/feature_cleanup.h"
+#include "core/finish/fit_faces.h"
 #include "core/finish/fit_vertices.h"
 #include "core/finish/fit_window.h"
 #include "core/finish/point_grid.h"
@@ -35,6 +36,13 @@ constexpr double kThinHandle = 5.5;
 /// Between contours a window may span four gaps: two contours on both sides tell the bending.
 constexpr double kWidestPerGap = 5.0;
 constexpr int kHandleRounds = 6;  ///< of {cut, close}: paths that touch are cut one by one
+/// Points a face: with more, flat triangles are farther from the surface than its fits.
+constexpr std::size_t kDensePoints = 4;
+/// Points a face: more tell hardly more, and take longer.
+constexpr std::size_t kMostPoints = 12;
+/// In h: averaged over the points around a vertex, less than what a surface bulges that bends by a
+/// tenth of a radian over a triangle.
+constexpr double kHardlyNoise = 0.03;
 /// In h: how far beyond the mesh points may matter.
 constexpr double kRegionMargin = 4.0;
 
@@ -101,6 +109,13 @@ void mend_slivers(TriangleMesh& mesh, const PointGrid& cloud, const FinishOption
   separate(mesh, cloud, options, report, progress);
 }
 
+/// Whether each face has enough points, with hardly any noise, to be fitted to these themselves.
+bool are_points_dense(const TriangleMesh& mesh, const PointGrid& cloud, const FitWindow& fit,
+                      const FinishOptions& options) {
+  return fit.noise <= kHardlyNoise * options.pixel_size &&
+         cloud.size() >= kDensePoints * mesh.triangles.size();
+}
+
 /// Better triangles, closer to the cloud, of a mesh that is closed and clean.
 void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
              FinishReport& report, const Progress& progress) {
@@ -124,10 +139,15 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
   report.flipped_edges = remeshed.flipped_edges;
   report.flattened_spikes = remeshed.flattened_spikes;
   remove_unused_vertices(mesh);
-  fit_vertices(mesh, surface, fit.window, progress);
+  const bool is_dense = are_points_dense(mesh, cloud, fit, options);
+  if (!is_dense) fit_vertices(mesh, surface, fit.window, progress);
   separate(mesh, cloud, options, report, progress);
   if (options.snap_features) snap(mesh, cloud, fit, options, report, progress);
   mend_slivers(mesh, cloud, options, report, progress);
+  if (is_dense) {
+    fit_faces(mesh, cloud.points(kMostPoints * mesh.triangles.size()), h, progress);
+    separate(mesh, cloud, options, report, progress);
+  }
   const ExtendBorderReport extended = extend_border(
       mesh, cloud, {.pixel_size = h, .min_component = options.min_component}, progress);
   report.border_steps = extended.steps;

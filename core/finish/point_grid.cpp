@@ -98,4 +98,13 @@ PointGrid PointGrid::thinned(int parts) const {
   return thin;
 }
 
+std::vector<Vec3> PointGrid::points(std::size_t most) const {
+  const std::size_t step = std::max<std::size_t>(1, (positions_.size() + most - 1) / most);
+  std::vector<Vec3> points;
+  points.reserve(positions_.size() / step + 1);
+  for (std::size_t i = 0; i < positions_.size(); i += step)
+    points.push_back(origin_ + Vec3(positions_[i]));
+  return points;
+}
+
 }  // namespace rangezip

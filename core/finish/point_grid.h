@@ -21,6 +21,11 @@ class PointGrid {
 
   [[nodiscard]] bool empty() const noexcept { return positions_.empty(); }
 
+  [[nodiscard]] std::size_t size() const noexcept { return positions_.size(); }
+
+  /// The points, or `most` of them at most, spread evenly over the grid.
+  [[nodiscard]] std::vector<Vec3> points(std::size_t most) const;
+
   /// Means of the points, each of which counts as so many, one for each part of a cube: every side
   /// is cut into `parts`. What is linear in the points, like the height of a surface that is wide
   /// against the parts, hardly changes. @pre 1 <= parts <= 4

@@ -34,6 +34,19 @@ TEST_CASE("for_each_near visits exactly the points around, and more") {
   }
 }
 
+TEST_CASE("points() gives all points, or fewer that are spread evenly") {
+  std::vector<Vec3> points;
+  for (int i = 0; i < 1000; ++i)
+    points.emplace_back(0.001 * i, 0.0, 0.0);
+  const PointGrid grid(points, {Vec3(-0.1), Vec3(1.1)}, 0.05);
+  REQUIRE(grid.size() == 1000);
+  REQUIRE(grid.points(1000).size() == 1000);
+  const std::vector<Vec3> fewer = grid.points(250);
+  REQUIRE(fewer.size() == 250);
+  for (std::size_t i = 0; i < fewer.size(); ++i)
+    REQUIRE(fewer[i].x == Approx(0.004 * static_cast<double>(i)).margin(1e-6));
+}
+
 TEST_CASE("a thinned grid has as many points in all, with the same mean, and fewer places") {
   std::mt19937_64 engine(7);
   std::vector<Vec3> points;

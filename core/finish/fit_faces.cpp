@@ -1,0 +1,238 @@
+#include "core/finish/fit_faces.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "core/base/parallel.h"
+#include "core/base/solve.h"
+#include "core/finish/corner_table.h"
+#include "core/finish/edge_changes.h"
+#include "core/finish/points_on_faces.h"
+#include "core/finish/triangle_shape.h"
+#include "core/finish/vertex_geometry.h"
+
+namespace rangezip {
+namespace {
+
+// Angles as cosines, smallest angles as sines.
+constexpr int kRounds = 6;
+constexpr int kTurningRounds = 4;      // after the first; later ones find hardly an edge to turn
+constexpr int kSweeps = 10;            // of solving: the rounds go on with what is left
+constexpr double kSmallAngle = 0.515;  // 31 degrees
+constexpr double kMostTurn = 0.5;
+constexpr double kSharpest = 0.5;   // edge that may arise
+constexpr double kTurnGain = 0.95;  // of the squared distances: equal ones would turn to and fro
+constexpr std::array kShares{1.0, 0.5, 0.25};  // of the way of a vertex, the first that may be
+
+/// What holds a vertex against sliding, in the weight of its points: where the surface bends by
+/// more than its root, a tenth of a radian, over an edge, the points decide.
+constexpr double kHold = 0.01;
+constexpr double kHoldAlways = 0.001;  // in points: where there are none
+constexpr double kRelaxStep = 0.55;    // towards the middle of the faces, that is held on to
+constexpr std::size_t kPerBlock = 1024;
+
+/// The normal equations of the points on a face for how far its plane moves at each corner.
+struct FaceSums {
+  Vec3 normal{0.0};
+  std::array<std::array<double, 3>, 3> products{};  ///< of the barycentric coordinates
+  std::array<double, 3> right{};                    ///< times the distances
+};
+
+class Fitter {
+ public:
+  Fitter(TriangleMesh& mesh, std::vector<Vec3> points, double reach)
+      : positions_(mesh.positions),
+        table_(mesh.triangles, mesh.positions.size()),
+        points_(mesh, std::move(points), reach) {}
+
+  void run(const Progress& progress) {
+    for (int round = 0; round < kRounds; ++round) {
+      progress.check_stop();
+      if (round > 0) points_.follow(table_, positions_);
+      if (round > 0 && round <= kTurningRounds && turn_edges() > 0)
+        points_.follow(table_, positions_);
+      sum_faces();
+      hold_vertices();
+      shifts_.assign(positions_.size(), Vec3(0.0));
+      for (int sweep = 0; sweep < kSweeps; ++sweep)
+        solve_vertices();
+      move_vertices();
+    }
+  }
+  [[nodiscard]] std::vector<Triangle> triangles() const { return table_.triangles(); }
+
+ private:
+  [[nodiscard]] const Vec3& at(std::uint32_t vertex) const { return positions_[vertex]; }
+  [[nodiscard]] double squared_distance(std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                                        const Vec3& point) const {
+    const Vec3 offset = closest_point_on_triangle(point, at(a), at(b), at(c)) - point;
+    return glm::dot(offset, offset);
+  }
+
+  /// Where that brings the faces nearer to their points. Of neighbouring edges only one turns.
+  std::size_t turn_edges() {
+    std::size_t count = 0;
+    std::vector<std::uint8_t> is_new(table_.face_count(), 0);
+    for (std::uint32_t c = 0; c < table_.corner_count(); ++c) {
+      if (!table_.names_inner_edge(c)) continue;
+      const std::uint32_t left = c / 3, right = table_.across(c) / 3;
+      if (is_new[left] != 0 || is_new[right] != 0) continue;
+      if (!may_turn(c) || !is_nearer_turned(c)) continue;
+      table_.flip(c);
+      is_new[left] = is_new[right] = 1;
+      ++count;
+    }
+    return count;
+  }
+
+  [[nodiscard]] bool may_turn(std::uint32_t corner) const {
+    const Diamond d(table_, corner);
+    const double angle = angle_after_flip(positions_, d);
+    if (angle < kSmallAngle && angle < angle_before_flip(positions_, d)) return false;
+    const DiamondAreas areas(positions_, d);
+    return has_cosine(areas.new_a, areas.new_b, kSharpest) && table_.is_flip_ok(corner);
+  }
+
+  [[nodiscard]] bool is_nearer_turned(std::uint32_t corner) const {
+    const Diamond d(table_, corner);
+    double before = 0.0, after = 0.0;
+    for (const std::uint32_t face : {corner / 3, table_.across(corner) / 3}) {
+      const Triangle t = table_.triangle(face);
+      for (const std::uint32_t i : points_.of_face(face)) {
+        const Vec3& p = points_.point(i);
+        before += squared_distance(t[0], t[1], t[2], p);
+        after += std::min(squared_distance(d.a, d.y, d.x, p), squared_distance(d.b, d.x, d.y, p));
+      }
+    }
+    return after < kTurnGain * before;
+  }
+
+  void sum_faces() {
+    sums_.assign(table_.face_count(), {});
+    parallel_for(sums_.size(), kPerBlock, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t f = begin; f < end; ++f)
+        sums_[f] = sums_of(static_cast<std::uint32_t>(f));
+    });
+  }
+
+  [[nodiscard]] FaceSums sums_of(std::uint32_t face) const {
+    FaceSums sums;
+    const Triangle t = table_.triangle(face);
+    const Vec3 &a = at(t[0]), &b = at(t[1]), &c = at(t[2]);
+    const Vec3 area = area_vector(a, b, c);
+    if (!(glm::dot(area, area) > 0.0)) return sums;
+    sums.normal = glm::normalize(area);
+    for (const std::uint32_t i : points_.of_face(face)) {
+      const Vec3 foot = closest_point_on_triangle(points_.point(i), a, b, c);
+      const std::array<double, 3> share = barycentric(foot, a, b, c);
+      const double distance = glm::dot(sums.normal, points_.point(i) - foot);
+      for (std::size_t k = 0; k < 3; ++k) {
+        sums.right[k] += share[k] * distance;
+        for (std::size_t l = 0; l < 3; ++l)
+          sums.products[k][l] += share[k] * share[l];
+      }
+    }
+    return sums;
+  }
+
+  /// Where each vertex would be without points, and how strongly it is held there.
+  void hold_vertices() {
+    rests_.assign(positions_.size(), Vec3(0.0));
+    holds_.assign(positions_.size(), kHoldAlways);
+    parallel_for(positions_.size(), kPerBlock, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto v = static_cast<std::uint32_t>(i);
+        if (table_.is_boundary(v)) continue;
+        rests_[v] = kRelaxStep * way_to_middle(v);
+        table_.for_each_corner(
+            v, [&](std::uint32_t c) { holds_[v] += kHold * sums_[c / 3].products[c % 3][c % 3]; });
+      }
+    });
+  }
+
+  /// Of the faces around a vertex, within its tangent plane.
+  [[nodiscard]] Vec3 way_to_middle(std::uint32_t v) const {
+    Vec3 sum{0.0}, normal{0.0};
+    double weight = 0.0;
+    table_.for_each_corner(v, [&](std::uint32_t c) {
+      const Vec3 area = face_area_vector(table_, positions_, c / 3);
+      const double size = glm::length(area);
+      sum += size / 3.0 * (at(table_.head(c)) + at(table_.apex(c)) - 2.0 * at(v));
+      normal += area;
+      weight += size;
+    });
+    if (!(weight > 0.0)) return Vec3(0.0);
+    normal = unit_or_z(normal);
+    const Vec3 way = sum / weight;
+    return way - glm::dot(way, normal) * normal;
+  }
+
+  /// Each vertex in turn to where it is best, the others where they are, as in the method of Gauss
+  /// and Seidel.
+  void solve_vertices() {
+    for (std::uint32_t v = 0; v < positions_.size(); ++v) {
+      if (!table_.is_boundary(v)) shifts_[v] = best_shift(v);
+    }
+  }
+
+  [[nodiscard]] Vec3 best_shift(std::uint32_t v) const {
+    Mat3 products(holds_[v]);
+    Vec3 right = holds_[v] * rests_[v];
+    table_.for_each_corner(v, [&](std::uint32_t c) {
+      const FaceSums& sums = sums_[c / 3];
+      const std::array<double, 3>& with = sums.products[c % 3];
+      const double others = with[(c + 1) % 3] * glm::dot(sums.normal, shifts_[table_.head(c)]) +
+                            with[(c + 2) % 3] * glm::dot(sums.normal, shifts_[table_.apex(c)]);
+      right += (sums.right[c % 3] - others) * sums.normal;
+      products += with[c % 3] * glm::outerProduct(sums.normal, sums.normal);
+    });
+    return solve(products, right, 0.0).value_or(Vec3(0.0));
+  }
+
+  void move_vertices() {
+    for (std::uint32_t v = 0; v < positions_.size(); ++v) {
+      if (table_.is_boundary(v)) continue;
+      for (const double share : kShares) {
+        const Vec3 target = at(v) + share * shifts_[v];
+        if (!keeps_faces(v, target)) continue;
+        positions_[v] = target;
+        break;
+      }
+    }
+  }
+
+  [[nodiscard]] bool keeps_faces(std::uint32_t v, const Vec3& target) const {
+    bool ok = true;
+    table_.for_each_corner(v, [&](std::uint32_t c) {
+      if (!ok) return;
+      const Vec3 &p = at(table_.head(c)), &q = at(table_.apex(c));
+      const double angle = sine_of_smallest_angle(target, p, q);
+      ok = (angle >= kSmallAngle || angle >= sine_of_smallest_angle(at(v), p, q)) &&
+           has_cosine(area_vector(at(v), p, q), area_vector(target, p, q), kMostTurn);
+    });
+    return ok;
+  }
+
+  std::vector<Vec3>& positions_;
+  CornerTable table_;
+  PointsOnFaces points_;
+  std::vector<FaceSums> sums_;
+  std::vector<Vec3> rests_;    ///< of each vertex, relative to it
+  std::vector<double> holds_;  ///< in points
+  std::vector<Vec3> shifts_;
+};
+
+}  // namespace
+
+void fit_faces(TriangleMesh& mesh, std::vector<Vec3> points, double reach,
+               const Progress& progress) {
+  if (points.empty() || mesh.triangles.empty()) return;
+  Fitter fitter(mesh, std::move(points), reach);
+  fitter.run(progress);
+  mesh.triangles = fitter.triangles();
+}
+
+}  // namespace rangezip

@@ -1,0 +1,92 @@
+#include "core/finish/points_on_faces.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/parallel.h"
+#include "core/finish/face_grid.h"
+
+namespace rangezip {
+namespace {
+
+constexpr std::uint32_t kNone = CornerTable::kNone;
+constexpr std::size_t kPerBlock = 1024;
+constexpr double kCellPerReach = 2.0;
+constexpr int kMostSteps = 6;  // of a walk: vertices move by less than an edge
+
+double squared_distance(const CornerTable& table, const std::vector<Vec3>& positions,
+                        std::uint32_t face, const Vec3& point) {
+  const Triangle t = table.triangle(face);
+  const Vec3 offset =
+      closest_point_on_triangle(point, positions[t[0]], positions[t[1]], positions[t[2]]) - point;
+  return glm::dot(offset, offset);
+}
+
+/// The face across the side beyond which the point's foot lies; the face itself if that is inside.
+std::uint32_t face_towards(const CornerTable& table, const std::vector<Vec3>& positions,
+                           std::uint32_t face, const Vec3& point) {
+  const Triangle t = table.triangle(face);
+  const auto share = barycentric(point, positions[t[0]], positions[t[1]], positions[t[2]]);
+  const auto least = std::min_element(share.begin(), share.end());
+  if (!(*least < 0.0)) return face;
+  const auto corner = static_cast<std::uint32_t>(least - share.begin());
+  const std::uint32_t across = table.across(CornerTable::next(3 * face + corner));
+  return across == kNone ? face : across / 3;
+}
+
+std::uint32_t walk(const CornerTable& table, const std::vector<Vec3>& positions, std::uint32_t face,
+                   const Vec3& point) {
+  for (int step = 0; step < kMostSteps; ++step) {
+    const std::uint32_t next = face_towards(table, positions, face, point);
+    if (next == face || !(squared_distance(table, positions, next, point) <
+                          squared_distance(table, positions, face, point)))
+      return face;
+    face = next;
+  }
+  return face;
+}
+
+}  // namespace
+
+PointsOnFaces::PointsOnFaces(const TriangleMesh& mesh, std::vector<Vec3> points, double reach)
+    : points_(std::move(points)), face_of_(points_.size(), kNone) {
+  const FaceGrid grid(mesh, kCellPerReach * reach);
+  parallel_for(points_.size(), kPerBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      face_of_[i] = grid.nearest_face(points_[i], reach);
+  });
+  sort(mesh.triangles.size());
+}
+
+void PointsOnFaces::follow(const CornerTable& table, const std::vector<Vec3>& positions) {
+  parallel_for(points_.size(), kPerBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (face_of_[i] != kNone) face_of_[i] = walk(table, positions, face_of_[i], points_[i]);
+    }
+  });
+  sort(table.face_count());
+}
+
+void PointsOnFaces::sort(std::size_t faces) {
+  starts_.assign(faces + 1, 0);
+  for (const std::uint32_t face : face_of_) {
+    if (face != kNone) ++starts_[face + 1];
+  }
+  for (std::size_t f = 1; f < starts_.size(); ++f)
+    starts_[f] += starts_[f - 1];
+  order_.resize(starts_.back());
+  std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
+  for (std::uint32_t i = 0; i < face_of_.size(); ++i) {
+    if (face_of_[i] != kNone) order_[next[face_of_[i]]++] = i;
+  }
+}
+
+std::array<double, 3> barycentric(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 area = glm::cross(b - a, c - a);
+  const double per_square = 1.0 / glm::dot(area, area);
+  const double of_a = glm::dot(glm::cross(b - point, c - point), area) * per_square;
+  const double of_b = glm::dot(glm::cross(c - point, a - point), area) * per_square;
+  return {of_a, of_b, 1.0 - of_a - of_b};
+}
+
+}  // namespace rangezip

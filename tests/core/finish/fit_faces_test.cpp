@@ -1,0 +1,124 @@
+#include "core/finish/fit_faces.h"
+
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "core/base/parallel.h"
+#include "core/finish/corner_table.h"
+#include "core/finish/triangle_shape.h"
+#include "tests/core/finish/shapes.h"
+
+namespace rangezip {
+namespace {
+
+using testing::uniform;
+
+constexpr double kReach = 0.3;
+
+double squared_distance(const TriangleMesh& mesh, const Vec3& p) {
+  double least = kReach * kReach;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 d = closest_point_on_triangle(p, mesh.positions[t[0]], mesh.positions[t[1]],
+                                             mesh.positions[t[2]]) -
+                   p;
+    least = std::min(least, glm::dot(d, d));
+  }
+  return least;
+}
+
+double mean_square(const TriangleMesh& mesh, const std::vector<Vec3>& points) {
+  double sum = 0.0;
+  for (const Vec3& p : points)
+    sum += squared_distance(mesh, p);
+  return sum / static_cast<double>(points.size());
+}
+
+double smallest_sine(const TriangleMesh& mesh) {
+  double least = 1.0;
+  for (const Triangle& t : mesh.triangles)
+    least = std::min(least, sine_of_smallest_angle(mesh.positions[t[0]], mesh.positions[t[1]],
+                                                   mesh.positions[t[2]]));
+  return least;
+}
+
+/// Spread evenly over the surface of the cube [-1, 1]^3.
+std::vector<Vec3> cube_points(std::size_t count, std::mt19937_64& engine) {
+  std::vector<Vec3> points(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (int axis = 0; axis < 3; ++axis)
+      points[i][axis] = uniform(engine, -1.0, 1.0);
+    points[i][static_cast<int>(i % 3)] = i % 2 == 0 ? 1.0 : -1.0;
+  }
+  return points;
+}
+
+TEST_CASE("faces come to lie on a sphere with a tenth of the squared error of corners on it") {
+  std::mt19937_64 engine(1);
+  const std::vector<Vec3> points = testing::sphere_points(0.05, 0.0, engine);
+  TriangleMesh mesh = testing::sphere(8);
+  const double before = mean_square(mesh, points);
+  fit_faces(mesh, points, kReach);
+  REQUIRE(mean_square(mesh, points) < before / 10.0);
+}
+
+TEST_CASE("vertices slide onto the edges of a cube that the mesh cuts off") {
+  std::mt19937_64 engine(2);
+  TriangleMesh mesh = testing::cube(9);
+  for (Vec3& p : mesh.positions) {
+    // Towards the middle: what lies on an edge or at a corner gets off both sides.
+    const auto is_outer = [&](int axis) { return std::abs(p[axis]) > 0.99; };
+    if (is_outer(0) + is_outer(1) + is_outer(2) > 1) p *= 0.95;
+  }
+  const std::vector<Vec3> points = cube_points(12'000, engine);
+  const double before = mean_square(mesh, points);
+  fit_faces(mesh, points, kReach);
+  REQUIRE(mean_square(mesh, points) < before / 100.0);
+}
+
+TEST_CASE("no angle under 31 degrees arises, whatever the points ask for") {
+  std::mt19937_64 engine(3);
+  std::vector<Vec3> points(4000);
+  for (Vec3& p : points)
+    p = (1.0 + uniform(engine, -0.1, 0.1)) *
+        glm::normalize(
+            Vec3(uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1)));
+  TriangleMesh mesh = testing::sphere(8);
+  const double before = smallest_sine(mesh);
+  fit_faces(mesh, points, kReach);
+  REQUIRE(smallest_sine(mesh) >= std::min(before, 0.515));
+}
+
+TEST_CASE("the boundary stays where it is") {
+  std::mt19937_64 engine(4);
+  const std::vector<Vec3> points = testing::sphere_points(0.05, 0.0, engine);
+  TriangleMesh mesh = testing::sphere(8);
+  testing::cut_where(mesh, [](const Vec3& p) { return p.z > 0.5; });
+  const TriangleMesh before = mesh;
+  fit_faces(mesh, points, kReach);
+  REQUIRE(mesh.positions != before.positions);
+  const CornerTable table(before.triangles, before.positions.size());
+  for (std::uint32_t v = 0; v < before.positions.size(); ++v) {
+    if (table.is_boundary(v)) REQUIRE(mesh.positions[v] == before.positions[v]);
+  }
+}
+
+TEST_CASE("the bits are the same for any number of threads") {
+  std::mt19937_64 engine(5);
+  const std::vector<Vec3> points = testing::sphere_points(0.05, 0.0, engine);
+  std::array<TriangleMesh, 2> meshes{testing::sphere(12), testing::sphere(12)};
+  run_with_threads(1, [&] { fit_faces(meshes[0], points, kReach); });
+  run_with_threads(4, [&] { fit_faces(meshes[1], points, kReach); });
+  REQUIRE(meshes[0] == meshes[1]);
+}
+
+TEST_CASE("without points nothing changes") {
+  TriangleMesh mesh = testing::sphere(6);
+  const TriangleMesh before = mesh;
+  fit_faces(mesh, {}, kReach);
+  REQUIRE(mesh == before);
+}
+
+}  // namespace
+}  // namespace rangezip

@@ -1,0 +1,73 @@
+#include "core/finish/points_on_faces.h"
+
+#include <catch2/catch.hpp>
+#include <limits>
+#include <random>
+
+#include "tests/core/finish/shapes.h"
+
+namespace rangezip {
+namespace {
+
+using testing::uniform;
+
+double distance_to(const TriangleMesh& mesh, std::uint32_t face, const Vec3& p) {
+  const Triangle& t = mesh.triangles[face];
+  return glm::length(closest_point_on_triangle(p, mesh.positions[t[0]], mesh.positions[t[1]],
+                                               mesh.positions[t[2]]) -
+                     p);
+}
+
+double distance_to(const TriangleMesh& mesh, const Vec3& p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f)
+    least = std::min(least, distance_to(mesh, f, p));
+  return least;
+}
+
+/// Points that belong to a face, each to one not farther than the nearest one but for `slack`.
+std::size_t count_and_check(const PointsOnFaces& points, const TriangleMesh& mesh, double slack) {
+  std::size_t count = 0;
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    for (const std::uint32_t i : points.of_face(f)) {
+      REQUIRE(distance_to(mesh, f, points.point(i)) <= distance_to(mesh, points.point(i)) + slack);
+      ++count;
+    }
+  }
+  return count;
+}
+
+TEST_CASE("points belong to the nearest face within reach and follow it when vertices move") {
+  constexpr double kReach = 0.15;
+  std::mt19937_64 engine(1);
+  TriangleMesh mesh = testing::sphere(6);
+  std::vector<Vec3> points;
+  std::size_t within = 0;
+  for (int i = 0; i < 800; ++i) {
+    const Vec3 direction(uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1));
+    points.push_back(uniform(engine, 0.8, 1.3) * glm::normalize(direction));
+    within += distance_to(mesh, points.back()) < kReach ? 1 : 0;
+  }
+  PointsOnFaces on_faces(mesh, points, kReach);
+  REQUIRE(within > 100);
+  REQUIRE(within < points.size());
+  REQUIRE(count_and_check(on_faces, mesh, 1e-12) == within);
+
+  constexpr double kMove = 0.02;
+  for (Vec3& p : mesh.positions)
+    p += kMove * Vec3(uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1));
+  on_faces.follow(CornerTable(mesh.triangles, mesh.positions.size()), mesh.positions);
+  REQUIRE(count_and_check(on_faces, mesh, kMove) == within);
+}
+
+TEST_CASE("barycentric coordinates of a foot are those of the place in the plane") {
+  const Vec3 a(1, 0, 0), b(0, 2, 0), c(0, 0, 3);
+  const Vec3 normal = glm::normalize(glm::cross(b - a, c - a));
+  const auto share = barycentric(0.2 * a + 0.3 * b + 0.5 * c + 0.7 * normal, a, b, c);
+  REQUIRE(share[0] == Approx(0.2));
+  REQUIRE(share[1] == Approx(0.3));
+  REQUIRE(share[2] == Approx(0.5));
+}
+
+}  // namespace
+}  // namespace rangezip
