@@ -17,6 +17,7 @@ std::string name_of(const Command& command) {
     std::string operator()(const EraseRegion&) const { return "erase"; }
     std::string operator()(const SmoothMesh&) const { return "smooth"; }
     std::string operator()(const FillMeshHoles&) const { return "fill"; }
+    std::string operator()(const DropUnsupported&) const { return "drop_unsupported"; }
     std::string operator()(const FinishMesh&) const { return "finish"; }
     std::string operator()(const UndoSteps&) const { return "undo"; }
   };

@@ -48,6 +48,7 @@ Json json_of(const FinishReport& finish) {
   return {{"self_intersections_cut", finish.self_intersections_cut},
           {"bridged_loops", finish.bridged_loops},
           {"cut_handles", finish.cut_handles},
+          {"faces_put_back", finish.faces_put_back},
           {"filled_holes", finish.filled_holes},
           {"filled_faces", finish.filled_faces},
           {"open_loops", finish.open_loops},

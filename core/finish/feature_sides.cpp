@@ -65,6 +65,7 @@ std::vector<FeatureSide> sides_of(std::vector<FeatureSide> surfaces, double step
 }
 
 std::optional<Vec3> meeting_place(std::span<const FeatureSide> sides) {
+  if (sides.size() > kMaxSides) return std::nullopt;
   Vec3 place{0.0};
   for (int step = 0; step < kSteps; ++step) {
     std::array<Vec3, kMaxSides> slopes{};

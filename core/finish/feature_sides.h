@@ -41,7 +41,7 @@ struct FeatureSide {
 [[nodiscard]] std::vector<FeatureSide> sides_of(std::vector<FeatureSide> surfaces, double step);
 
 /// The place on all the given sides, one to three, that is nearest to the origin; nothing if they
-/// are too much alike to tell.
+/// are too much alike to tell, or more.
 [[nodiscard]] std::optional<Vec3> meeting_place(std::span<const FeatureSide> sides);
 
 }  // namespace rangezip

@@ -63,8 +63,10 @@ Box region_of(const TriangleMesh& mesh, double margin) {
 /// Cuts handles that seams made where sheets come close, and closes the holes.
 void remove_thin_handles(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
                          FinishReport& report, const Progress& progress) {
+  HandleEvidence evidence;
+  if (options.narrow_gaps) evidence = {&cloud, options.pixel_size};
   for (int round = 0; round < kHandleRounds; ++round) {
-    const std::size_t cut = cut_thin_handles(mesh, kThinHandle * options.pixel_size);
+    const std::size_t cut = cut_thin_handles(mesh, kThinHandle * options.pixel_size, evidence);
     if (cut == 0) return;
     report.cut_handles += cut;
     repair(mesh, {}, cloud, options, report, progress);

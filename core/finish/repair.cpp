@@ -13,11 +13,19 @@
 #include "core/finish/clean_topology.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/hole_choice.h"
+#include "core/finish/removed_faces.h"
 #include "core/finish/verified_fills.h"
+#include "core/mesh/coverage.h"
 #include "core/mesh/self_intersection.h"
 
 namespace rangezip {
 namespace {
+
+/// In h: a place is one of the surface if the cloud has a point as near as this.
+constexpr double kSupport = 0.75;
+
+/// Holes that were left once stay as a rule: then these are enough for what is new.
+constexpr int kRoundsAgain = 3;
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
@@ -60,8 +68,41 @@ struct FillOutcome {
   std::vector<std::uint8_t> unfilled;  ///< flags of vertices of loops that could not be filled
 };
 
-FillOutcome fill(TriangleMesh& mesh, bool is_zipped, const PointGrid& cloud,
-                 const FinishOptions& options, FinishReport& report) {
+/// Whether a fill covers the places of removed faces that it closes over, as far as the cloud shows
+/// that they are places of the surface.
+bool covers_removed(const TriangleMesh& mesh, const std::vector<Triangle>& removed,
+                    const HoleFill& fill, const PointGrid& cloud, double h) {
+  std::vector<Vec3> places;
+  for (const Triangle& t : removed) {
+    const Vec3 place = (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3.0;
+    bool is_supported = cloud.empty();
+    cloud.for_each_near(place, kSupport * h, [&](const Vec3& d) {
+      is_supported = is_supported || glm::dot(d, d) < kSupport * kSupport * h * h;
+    });
+    if (is_supported) places.push_back(place);
+  }
+  if (places.empty()) return true;
+  TriangleMesh patch;
+  patch.triangles = fill.triangles;
+  std::vector<std::uint32_t> used;
+  for (const Triangle& t : fill.triangles)
+    used.insert(used.end(), t.begin(), t.end());
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  for (const std::uint32_t v : used)
+    patch.positions.push_back(v < mesh.positions.size()
+                                  ? mesh.positions[v]
+                                  : fill.new_positions[v - mesh.positions.size()]);
+  for (Triangle& t : patch.triangles) {
+    for (std::uint32_t& v : t)
+      v = static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), v) - used.begin());
+  }
+  const std::vector<std::uint8_t> covered = covered_points(places, patch, h);
+  return std::find(covered.begin(), covered.end(), 0) == covered.end();
+}
+
+FillOutcome fill(TriangleMesh& mesh, bool is_zipped, const RemovedFaces* removed,
+                 const PointGrid& cloud, const FinishOptions& options, FinishReport& report) {
   const CornerTable table(mesh.triangles, mesh.positions.size());
   std::vector<BoundaryLoop> loops = boundary_loops(table);
   const HoleChoiceOptions choice{options.pixel_size, options.max_hole_perimeter,
@@ -77,8 +118,14 @@ FillOutcome fill(TriangleMesh& mesh, bool is_zipped, const PointGrid& cloud,
     if (shapes[i]) requests.push_back({std::move(loops[i]), *shapes[i]});
   }
   const double h = options.pixel_size;
-  const VerifiedFills fills = fill_verified(
-      mesh, table, requests, {h, options.narrow_width * h, options.max_hole_perimeter * h});
+  VerifiedFillOptions fill_options{h, options.narrow_width * h, options.max_hole_perimeter * h, {}};
+  const TriangleMesh before = removed != nullptr ? mesh : TriangleMesh{};
+  if (removed != nullptr) {
+    fill_options.may_stay = [&](const BoundaryLoop& loop, const HoleFill& made) {
+      return covers_removed(before, removed->behind(table, loop), made, cloud, h);
+    };
+  }
+  const VerifiedFills fills = fill_verified(mesh, table, requests, fill_options);
   report.filled_holes += fills.filled_holes;
   report.filled_faces += fills.filled_faces;
   FillOutcome outcome;
@@ -101,21 +148,37 @@ void widen(TriangleMesh& mesh, const std::vector<std::uint8_t>& vertices) {
   });
 }
 
+/// Of faces around holes that could not be closed in the end.
+void put_back(TriangleMesh& mesh, const RemovedFaces& removed, const PointGrid& cloud,
+              const FinishOptions& options, FinishReport& report) {
+  const std::size_t count = removed.put_back(mesh);
+  if (count == 0) return;
+  report.faces_put_back += count;
+  clean(mesh, options, report);
+  fill(mesh, true, nullptr, cloud, options, report);
+}
+
 }  // namespace
 
 void repair(TriangleMesh& mesh, const Pairs& crossing, const PointGrid& cloud,
             const FinishOptions& options, FinishReport& report, const Progress& progress) {
   cut_pairs(mesh, crossing, report);
   // From here on nothing crosses: faces only go, and what comes is checked.
-  for (int round = 0; round < options.rounds; ++round) {
+  const int rounds =
+      report.faces_put_back > 0 ? std::min(options.rounds, kRoundsAgain) : options.rounds;
+  std::optional<RemovedFaces> removed;
+  for (int round = 0; round < rounds; ++round) {
     progress.check_stop();
     clean(mesh, options, report);
     bridge(mesh, options, report);
     const bool is_zipped = round > 0;
-    const FillOutcome outcome = fill(mesh, is_zipped, cloud, options, report);
-    if (outcome.is_done || round + 1 == options.rounds) break;
+    const FillOutcome outcome =
+        fill(mesh, is_zipped, removed ? &*removed : nullptr, cloud, options, report);
+    if (outcome.is_done || round + 1 == rounds) break;
+    if (!removed && options.narrow_gaps) removed.emplace(mesh);
     widen(mesh, outcome.unfilled);
   }
+  if (removed) put_back(mesh, *removed, cloud, options, report);
   remove_unused_vertices(mesh);
 }
 

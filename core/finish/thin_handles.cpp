@@ -13,6 +13,7 @@
 #include "core/finish/boundary_loops.h"
 #include "core/finish/components.h"
 #include "core/finish/corner_table.h"
+#include "core/finish/unsupported_faces.h"
 
 namespace rangezip {
 namespace {
@@ -170,8 +171,9 @@ struct Cycle {
 /// Looks for closed paths through one vertex.
 class LocalSearch {
  public:
-  LocalSearch(const TriangleMesh& mesh, const CornerTable& table, const EdgeWords& words)
-      : mesh_(mesh), table_(table), words_(words) {}
+  /// @param lengths of half-edges
+  LocalSearch(const CornerTable& table, const EdgeWords& words, const std::vector<double>& lengths)
+      : table_(table), words_(words), lengths_(lengths) {}
 
   /// The shortest one that does not part the surface; longer than `max_length`, and without
   /// vertices, if there is none up to that.
@@ -180,18 +182,18 @@ class LocalSearch {
     Cycle best{.length = 2.0 * max_length};
     std::pair<std::uint32_t, std::uint32_t> closing{kNone, kNone};
     for (const auto& [a, way_a] : ways) {
-      for_each_edge_at(
-          table_, a, [&, from = a, &way = way_a](std::uint32_t b, std::uint32_t corner) {
-            const auto other = ways.find(b);
-            if (other == ways.end()) return;
-            const std::uint64_t word = way.word ^ other->second.word ^ words_[corner];
-            if (word == 0) return;
-            const double length = way.length + other->second.length + distance(from, b);
-            if (length > max_length || length >= best.length) return;
-            best.length = length;
-            best.word = word;
-            closing = {from, b};
-          });
+      for_each_edge_at(table_, a,
+                       [&, from = a, &way = way_a](std::uint32_t b, std::uint32_t corner) {
+                         const auto other = ways.find(b);
+                         if (other == ways.end()) return;
+                         const std::uint64_t word = way.word ^ other->second.word ^ words_[corner];
+                         if (word == 0) return;
+                         const double length = way.length + other->second.length + lengths_[corner];
+                         if (length > max_length || length >= best.length) return;
+                         best.length = length;
+                         best.word = word;
+                         closing = {from, b};
+                       });
     }
     if (closing.first != kNone) best.vertices = path(ways, closing.first, closing.second);
     return best;
@@ -206,10 +208,6 @@ class LocalSearch {
   };
   using Ways = std::map<std::uint32_t, Way>;  ///< by vertex; in order, which decides ties
 
-  [[nodiscard]] double distance(std::uint32_t a, std::uint32_t b) const {
-    return glm::length(mesh_.positions[a] - mesh_.positions[b]);
-  }
-
   [[nodiscard]] Ways ways_from(std::uint32_t root, double max_length) const {
     using Entry = std::pair<double, std::uint32_t>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
@@ -222,7 +220,7 @@ class LocalSearch {
       const Way way = ways[v];
       if (length > way.length) continue;
       for_each_edge_at(table_, v, [&, from = v](std::uint32_t w, std::uint32_t corner) {
-        const double longer = way.length + distance(from, w);
+        const double longer = way.length + lengths_[corner];
         if (longer > max_length) return;
         const auto known = ways.find(w);
         if (known != ways.end() && known->second.length <= longer) return;
@@ -243,9 +241,9 @@ class LocalSearch {
     return vertices;
   }
 
-  const TriangleMesh& mesh_;
   const CornerTable& table_;
   const EdgeWords& words_;
+  const std::vector<double>& lengths_;
 };
 
 /// Paths that together part the surface have words that cancel: such a one is not to be cut.
@@ -264,6 +262,31 @@ class IndependentWords {
   std::vector<std::uint64_t> words_;  ///< none has the highest bit of an earlier one
 };
 
+/// What each edge adds to the length of a path, by half-edge.
+std::vector<double> lengths_of(const TriangleMesh& mesh, const CornerTable& table,
+                               const HandleEvidence& evidence) {
+  constexpr SupportReach kReach{.pixels = 0.6, .spacings = 1.3};
+  constexpr double kUnsupportedScale = 0.1;
+  // A hole counts as filled, and the way across is much shorter than that around.
+  constexpr double kBorderScale = 1.0 / 3.0;
+  constexpr std::size_t kGrain = 1024;
+  std::vector<double> lengths(table.corner_count());
+  parallel_for(lengths.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto c = static_cast<std::uint32_t>(i);
+      const Vec3 &a = mesh.positions[table.vertex(c)], &b = mesh.positions[table.head(c)];
+      lengths[i] = glm::length(b - a);
+      if (evidence.cloud == nullptr || evidence.cloud->empty()) continue;
+      if (table.across(c) == kNone) {
+        lengths[i] *= kBorderScale;
+      } else if (!is_supported(*evidence.cloud, 0.5 * (a + b), evidence.pixel_size, kReach)) {
+        lengths[i] *= kUnsupportedScale;
+      }
+    }
+  });
+  return lengths;
+}
+
 /// By the Euler number, with the holes filled.
 bool has_handles(const CornerTable& table) {
   auto euler = static_cast<std::int64_t>(table.face_count() + boundary_loops(table).size());
@@ -279,7 +302,7 @@ bool has_handles(const CornerTable& table) {
 
 /// The shortest paths first. A path that parts nothing has an edge whose word is not 0, so only
 /// the ends of those are asked.
-std::vector<Cycle> short_cycles(const TriangleMesh& mesh, const CornerTable& table,
+std::vector<Cycle> short_cycles(const CornerTable& table, const std::vector<double>& lengths,
                                 double max_length) {
   const EdgeWords words(table);
   std::vector<std::uint8_t> is_asked(table.vertex_count(), 0);
@@ -291,7 +314,7 @@ std::vector<Cycle> short_cycles(const TriangleMesh& mesh, const CornerTable& tab
     if (is_asked[v] != 0) asked.push_back(v);
   }
   constexpr std::size_t kVerticesPerBlock = 256;
-  const LocalSearch search(mesh, table, words);
+  const LocalSearch search(table, words, lengths);
   std::vector<Cycle> cycles(asked.size());
   parallel_for(asked.size(), kVerticesPerBlock, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
@@ -304,14 +327,15 @@ std::vector<Cycle> short_cycles(const TriangleMesh& mesh, const CornerTable& tab
 
 }  // namespace
 
-std::size_t cut_thin_handles(TriangleMesh& mesh, double max_girth) {
+std::size_t cut_thin_handles(TriangleMesh& mesh, double max_girth, const HandleEvidence& evidence) {
   const CornerTable table(mesh.triangles, mesh.positions.size());
   if (!has_handles(table)) return 0;
+  const std::vector<double> lengths = lengths_of(mesh, table, evidence);
   std::vector<std::uint8_t> is_dropped(mesh.triangles.size(), 0);
   std::vector<std::uint8_t> is_touched(mesh.positions.size(), 0);  // by an earlier cut
   IndependentWords cut_words;
   std::size_t cuts = 0;
-  for (const Cycle& cycle : short_cycles(mesh, table, max_girth)) {
+  for (const Cycle& cycle : short_cycles(table, lengths, max_girth)) {
     const bool meets_cut = std::any_of(cycle.vertices.begin(), cycle.vertices.end(),
                                        [&](std::uint32_t v) { return is_touched[v] != 0; });
     if (meets_cut || !cut_words.add(cycle.word)) continue;

@@ -2,9 +2,16 @@
 
 #include <cstddef>
 
+#include "core/finish/point_grid.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace rangezip {
+
+/// What tells false handles that are not thin.
+struct HandleEvidence {
+  const PointGrid* cloud = nullptr;  ///< without it every edge counts as long as it is
+  double pixel_size = 0.0;           ///< h, model units
+};
 
 /// Cuts handles and tunnels that are narrower than what scans resolve: such a handle is made by a
 /// seam that joined two sheets where they come close, not by the object. Every edge gets a word,
@@ -14,9 +21,13 @@ namespace rangezip {
 /// touch, or that would part the surface together, the shortest is cut. Boundary loops count as if
 /// filled: they make no handle. O(faces) and the surroundings of those edges, a few rows of faces
 /// for each handle.
+/// With a cloud that shows narrow gaps, an edge whose middle has no point within 0.6 h (or 1.3
+/// spacings) counts a tenth: what lies across a gap is cut there, however long the path around it;
+/// an edge of a boundary counts a third, since the hole is filled, and the way across it shorter.
 /// @param max_girth model units; longer paths stay
 /// @return how many paths were cut; call it again after closing the holes until none is
 /// @pre oriented and manifold
-std::size_t cut_thin_handles(TriangleMesh& mesh, double max_girth);
+std::size_t cut_thin_handles(TriangleMesh& mesh, double max_girth,
+                             const HandleEvidence& evidence = {});
 
 }  // namespace rangezip

@@ -237,10 +237,17 @@ void describe(Fields& f, FillMeshHoles& command) {
 }
 
 template <class Fields>
+void describe(Fields& f, DropUnsupported& command) {
+  auto& [pixel_size] = command;
+  f.number("pixel_size", pixel_size, kNotNegative,
+           "of the scans, model units; 0: the mesh's mean edge length");
+}
+
+template <class Fields>
 void describe(Fields& f, FinishMesh& command) {
   auto& [options] = command;
   auto& [method, pixel_size, max_hole_perimeter, narrow_width, rounds, relaxations, triangles,
-         flat_tolerance, snap_features, gap, min_component] = options;
+         flat_tolerance, snap_features, gap, narrow_gaps, min_component] = options;
   f.choice("method", method,
            std::array{Choice<FinishMethod>{"fast", FinishMethod::fast},
                       Choice<FinishMethod>{"full", FinishMethod::full}},
@@ -261,6 +268,8 @@ void describe(Fields& f, FinishMesh& command) {
   f.boolean("snap_features", snap_features, "moves vertices onto sharp edges and corners");
   f.number("gap", gap, kNotNegative,
            "model units; between the contours that the points lie on; 0: they are spread evenly");
+  f.boolean("narrow_gaps", narrow_gaps,
+            "keeps surface rather than closing holes, and cuts handles where no points lie");
   f.integer("min_component", min_component, kCount, "triangles; smaller pieces are dropped");
 }
 
@@ -277,6 +286,7 @@ void for_each_command_type(const Visit& visit) {
   visit("erase", "deletes the faces seen inside a region", EraseRegion{});
   visit("smooth", "Laplacian smoothing of all inner vertices", SmoothMesh{});
   visit("fill", "closes boundary loops", FillMeshHoles{});
+  visit("drop_unsupported", "drops the faces that no point lies near", DropUnsupported{});
   visit("finish", "closes, cleans and improves the mesh", FinishMesh{});
   visit("undo", "takes back the last commands", UndoSteps{});
 }

@@ -24,6 +24,8 @@ constexpr int kFillRounds = 2;
 constexpr int kFillViewsPerRound = 6;
 constexpr int kCoverRounds = 2;
 constexpr int kCoverViewsPerRound = 12;
+/// In h: the pixels of those views, since what is left out is narrower than what h resolves.
+constexpr double kCoverPixel = 0.5;
 /// Of the samples: of a body that is seen whole fewer are left, and fill views see to them.
 constexpr double kUncoveredShare = 0.02;
 constexpr double kMinNewPoints = 40;  ///< that a view must add: fewer are a few pixels
@@ -183,11 +185,14 @@ class Run {
   /// where the caller has said how many views there are to be.
   void scan_uncovered() {
     if (options_.views) return;
+    ScanRecipe finer = recipe_;
+    finer.pixel_size *= kCoverPixel;
     for (int round = 0; round < kCoverRounds; ++round) {
       const std::vector<Vec3> uncovered = uncovered_samples();
       if (uncovered.empty()) break;
+      drop_unsupported();
       const ViewPlan plan =
-          plan_views_of(rasterizer_, samples_, uncovered, recipe_.pixel_size,
+          plan_views_of(rasterizer_, samples_, uncovered, finer.pixel_size,
                         {.max_views = kCoverViewsPerRound,
                          .subset = kCoverSamples,
                          .max_slope_cosine = kCosine75Degrees,
@@ -196,9 +201,18 @@ class Run {
                          .views_for_quality = 0},
                         part_of(progress_, "fill views", kFillShare, kFillShare));
       if (plan.directions.empty()) break;
-      scan_into_holes(plan.directions);
+      scan_into_holes(plan.directions, finer);
     }
     clock_.finish("uncovered");
+  }
+
+  /// Faces across gaps hide what lies in them, and make handles. Where contours lie apart every
+  /// face is far from points.
+  void drop_unsupported() {
+    if (recipe_.gap > 0.0) return;
+    has_narrow_gaps_ = true;
+    apply(DropUnsupported{.pixel_size = recipe_.pixel_size},
+          part_of(progress_, "fill views", kFillShare, kFillShare));
   }
 
   void scan_fill_views() {
@@ -206,17 +220,18 @@ class Run {
       const std::vector<Vec3> directions =
           plan_fill_views(*session_.mesh(), kMinFillLoop * recipe_.pixel_size, kFillViewsPerRound);
       if (directions.empty()) break;
-      scan_into_holes(directions);
+      scan_into_holes(directions, recipe_);
     }
+    if (has_narrow_gaps_) drop_unsupported();
     clock_.finish("fill views");
   }
 
   /// Scans of an open sheet stay on the side of the first one.
-  void scan_into_holes(std::span<const Vec3> directions) {
+  void scan_into_holes(std::span<const Vec3> directions, const ScanRecipe& recipe) {
     for (const Vec3& direction : directions) {
       if (recipe_.one_sided && !(glm::dot(direction, result_.report.views[0]) > 0.0)) continue;
       const auto view = static_cast<std::uint32_t>(result_.report.views.size());
-      apply(fill_scan(recipe_, direction, view),
+      apply(fill_scan(recipe, direction, view),
             part_of(progress_, "fill views", kFillShare, kFinishShare));
       result_.report.views.push_back(direction);
     }
@@ -230,6 +245,7 @@ class Run {
       command.options.triangles = options_.triangles.value_or(0);
       command.options.flat_tolerance = options_.decimate.value_or(0.0);
       command.options.gap = recipe_.gap;
+      command.options.narrow_gaps = has_narrow_gaps_;
       command.options.snap_features = recipe_.gap == 0.0;  // between contours a bend looks sharp
       apply(command, part_of(progress_, "finish", kFinishShare, kCheckShare));
     }
@@ -258,7 +274,8 @@ class Run {
   StageClock clock_;
   Session session_;
   ScanRecipe recipe_;
-  std::vector<Vec3> samples_;  ///< points, then area samples of polygons
+  bool has_narrow_gaps_ = false;  ///< that the planned views did not reach
+  std::vector<Vec3> samples_;     ///< points, then area samples of polygons
 };
 
 }  // namespace

@@ -47,6 +47,12 @@ struct FillMeshHoles {
   double max_perimeter = std::numeric_limits<double>::infinity();  ///< model units
 };
 
+/// Drops the faces that no point of the scene lies near (core/finish/unsupported_faces.h): scans
+/// that join samples over steps of depth make them across narrow gaps.
+struct DropUnsupported {
+  double pixel_size = 0.0;  ///< h, model units; 0: the mesh's mean edge length
+};
+
 /// The finish; projects onto the evidence_points() of the scene.
 struct FinishMesh {
   FinishOptions options;  ///< pixel_size 0: the mesh's mean edge length
@@ -58,7 +64,7 @@ struct UndoSteps {
 };
 
 /// One step of a session. Plain data: written to a session file, it can be played back.
-using Command =
-    std::variant<AddScan, EraseRegion, SmoothMesh, FillMeshHoles, FinishMesh, UndoSteps>;
+using Command = std::variant<AddScan, EraseRegion, SmoothMesh, FillMeshHoles, DropUnsupported,
+                             FinishMesh, UndoSteps>;
 
 }  // namespace rangezip

@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/finish/hole_filling.h"
 #include "core/finish/laplacian_smooth.h"
+#include "core/finish/unsupported_faces.h"
 #include "core/plan/spacing.h"
 #include "core/session/erase_region.h"
 #include "core/view/view.h"
@@ -81,6 +82,12 @@ class CommandRun {
     FilledMesh filled = fill_mesh_holes(std::move(result_.mesh), command.pixel_size, max_perimeter);
     result_.mesh = std::move(filled.mesh);
     result_.report.filled_holes = filled.filled_holes;
+  }
+
+  void operator()(const DropUnsupported& command) {
+    if (result_.mesh.empty()) return;
+    const double h = command.pixel_size > 0.0 ? command.pixel_size : mean_edge_length(result_.mesh);
+    result_.report.erased_faces = drop_unsupported_faces(result_.mesh, evidence_points(scene_), h);
   }
 
   void operator()(const FinishMesh& command) {

@@ -70,10 +70,13 @@ Places places_of(const SeenMesh& before, const TriangleMesh& after, const FaceCh
   return places;
 }
 
-/// The new vertices by the pixels that they are nearest to, for a first quick answer.
+/// The new vertices by the pixels that they are nearest to, for a first quick answer. Those far
+/// outside of the image are not among them.
 class NewVertices {
  public:
-  NewVertices(const SeenMesh& after, const FaceChanges& changes, std::size_t first_new)
+  /// @param places the pixels that will be asked for
+  NewVertices(const SeenMesh& after, const FaceChanges& changes, std::size_t first_new,
+              const PixelBox& places)
       : mesh_(after.mesh) {
     std::vector<std::uint32_t> vertices;
     for (const std::uint32_t f : changes.made) {
@@ -82,11 +85,16 @@ class NewVertices {
       }
     }
     if (vertices.empty()) return;
+    PixelBox box;
     for (const std::uint32_t v : vertices)
-      box_.add(nearest_pixel(after.image.points[v]));
+      box.add(nearest_pixel(after.image.points[v]));
+    box_ = box.within(places);
+    if (box_.is_empty() || is_too_large(box_.extent())) return;
     at_.reset(box_.extent(), kNone);
-    for (const std::uint32_t v : vertices)
-      at_[box_.local(nearest_pixel(after.image.points[v]))] = v;
+    for (const std::uint32_t v : vertices) {
+      const Pixel local = box_.local(nearest_pixel(after.image.points[v]));
+      if (at_.extent().contains(local)) at_[local] = v;
+    }
   }
 
   /// Whether the one at the pixel is within `distance` of the place.
@@ -100,6 +108,13 @@ class NewVertices {
 
  private:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+  /// More pixels than any image has: then there is no quick answer.
+  [[nodiscard]] static bool is_too_large(const Extent& extent) {
+    constexpr std::int64_t kMostPixels = std::int64_t{1} << 24;
+    return std::int64_t{extent.width} * extent.height > kMostPixels;
+  }
+
   const TriangleMesh& mesh_;
   PixelBox box_;
   Grid<std::uint32_t> at_;
@@ -193,7 +208,8 @@ TriangleMesh around(const TriangleMesh& mesh, const std::vector<Vec3>& places, d
 std::vector<Pixel> find_lost_places(const SeenMesh& before, const SeenMesh& after,
                                     const FaceChanges& changes, double distance) {
   Places places = places_of(before, after.mesh, changes, distance);
-  const NewVertices vertices(after, changes, before.mesh.positions.size());
+  const NewVertices vertices(after, changes, before.mesh.positions.size(),
+                             box_around(places.pixels));
   forget_those_near(vertices, distance, places);
   if (places.positions.empty()) return {};
   const std::vector<std::uint8_t> covered =

@@ -37,6 +37,12 @@ TEST_CASE("sides that are alike, or three along one line, meet nowhere") {
   REQUIRE_FALSE(meeting_place(fan));
 }
 
+TEST_CASE("more than three sides meet nowhere", "[finish]") {
+  const std::array four{plane({1, 0, 0}, 0.1), plane({0, 1, 0}, 0.1), plane({0, 0, 1}, 0.1),
+                        plane({1, 1, 1}, 0.1)};
+  REQUIRE_FALSE(meeting_place(four));
+}
+
 TEST_CASE("surfaces are grouped by direction and by height, the heaviest group first") {
   const std::vector<FeatureSide> sides = sides_of(
       {plane({0, 0, 1}, 0.00, 1.0), plane({0, 0.1, 1}, 0.02, 1.0), plane({1, 0, 0}, 0.00, 3.0),

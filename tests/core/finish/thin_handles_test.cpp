@@ -2,8 +2,10 @@
 
 #include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <vector>
 
 #include "core/finish/clean_topology.h"
 #include "core/finish/hole_filling.h"
@@ -63,6 +65,22 @@ TEST_CASE("of several bodies only the thin one is cut") {
   mesh = closed(std::move(mesh));
   CHECK(genus_of(mesh) == 1);
   CHECK(cut_thin_handles(mesh, 1.05 * kGirth) == 0);
+}
+
+TEST_CASE(
+    "a handle that no point lies near is cut though it is not thin, one with points is kept") {
+  const TriangleSoup soup = shapes::torus(1.0, 0.3);
+  const double girth = 2.0 * std::numbers::pi * 0.3;
+  std::vector<Vec3> points = shapes::to_points(shapes::sampled(soup, 40'000));
+  const Box region{Vec3(-2.0), Vec3(2.0)};
+  const PointGrid whole(points, region, 0.1);
+  TriangleMesh kept = shapes::to_mesh(soup);
+  CHECK(cut_thin_handles(kept, 0.5 * girth, {&whole, 0.1}) == 0);
+  std::erase_if(points, [](const Vec3& p) { return p.x > 0.3 && std::abs(p.y) < 0.6; });
+  const PointGrid part(points, region, 0.1);
+  TriangleMesh cut = shapes::to_mesh(soup);
+  CHECK(cut_thin_handles(cut, 0.5 * girth, {&part, 0.1}) == 1);
+  CHECK(genus_of(closed(std::move(cut))) == 0);
 }
 
 TEST_CASE("the ends of an open tube make no handle of it, nor do bodies without any") {

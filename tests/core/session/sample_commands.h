@@ -75,12 +75,14 @@ inline std::vector<Command> full_commands(shapes::Random& random) {
   finish.options.flat_tolerance = share();
   finish.options.snap_features = false;
   finish.options.gap = share();
+  finish.options.narrow_gaps = true;
   finish.options.min_component = static_cast<std::size_t>(count());
 
   return {scan,
           erase,
           SmoothMesh{.iterations = count(), .factor = share()},
           FillMeshHoles{.pixel_size = share(), .max_perimeter = share()},
+          DropUnsupported{.pixel_size = share()},
           finish,
           UndoSteps{.count = count()}};
 }

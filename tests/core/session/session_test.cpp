@@ -58,6 +58,7 @@ std::vector<Command> sample_session() {
           erase_square(0.4),
           SmoothMesh{.iterations = 2},
           FillMeshHoles{},
+          DropUnsupported{},
           FinishMesh{}};
 }
 

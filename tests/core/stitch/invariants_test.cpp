@@ -165,6 +165,23 @@ TEST_CASE("a wall that shows no pixel is missed by its corners", "[stitch]") {
   CHECK(lost_beside(1.1) == places);
 }
 
+TEST_CASE("a new vertex far outside of the image changes nothing about lost places", "[stitch]") {
+  const TriangleMesh before = lattice({10.0, 10.0}, 4, 4, 1.0, 20.0);
+  TriangleMesh after = before;
+  after.triangles.clear();
+  const FaceChanges gone = find_face_changes(before, after);
+  const View view = images::parallel_view(kExtent);
+  const ImagePlane image = project_to_image(before.positions, view);
+  const std::size_t places = find_lost_places({before, image}, {after, image}, gone, 1.0).size();
+  // A pixel of a grid as wide as that would take gigabytes.
+  TriangleMesh far = lattice({10.0, 10.0}, 1, 1, 1.0, 60.0);
+  far.positions.back() = world(16'000.0, 16'000.0, 60.0);
+  const TriangleMesh both = merged(after, far);
+  const ImagePlane image_both = project_to_image(both.positions, view);
+  const FaceChanges changes = find_face_changes(before, both);
+  CHECK(find_lost_places({before, image}, {both, image_both}, changes, 1.0).size() == places);
+}
+
 TEST_CASE("a patch is withdrawn from places by the radius and no farther", "[stitch]") {
   const Scan scan = hand_scan(plane(20.0), rectangle({10, 10}, {30, 30}));
   const Patch& patch = scan.patch;

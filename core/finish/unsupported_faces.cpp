@@ -1,0 +1,91 @@
+#include "core/finish/unsupported_faces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "core/base/parallel.h"
+#include "core/finish/clean_topology.h"
+
+namespace rangezip {
+namespace {
+
+/// Of places of a face.
+constexpr SupportReach kReach{.pixels = 0.75, .spacings = 1.5};
+/// In h: how far from a face the points next to it may be.
+constexpr double kFarthest = 6.0;
+constexpr std::size_t kNeighbors = 16;  ///< that tell the spacing, as in core/plan/spacing.h
+constexpr double kPi = 3.14159265358979323846;
+
+/// Squared distance to the nearest point, if there is one within `radius`.
+std::optional<Vec3> nearest_within(const PointGrid& cloud, const Vec3& place, double radius) {
+  std::optional<Vec3> nearest;
+  double least = radius * radius;
+  cloud.for_each_near(place, radius, [&](const Vec3& offset) {
+    const double squared = glm::dot(offset, offset);
+    if (squared > least) return;
+    least = squared;
+    nearest = place + offset;
+  });
+  return nearest;
+}
+
+/// Mean distance of neighbours on the surface around a point, or nothing if they are farther apart
+/// than `radius` lets see.
+std::optional<double> spacing_at(const PointGrid& cloud, const Vec3& point, double radius) {
+  std::vector<double> squares;
+  cloud.for_each_near(point, radius,
+                      [&](const Vec3& offset) { squares.push_back(glm::dot(offset, offset)); });
+  if (squares.size() <= kNeighbors) return std::nullopt;  // the point itself is among them
+  const auto last = squares.begin() + kNeighbors;
+  std::nth_element(squares.begin(), last, squares.end());
+  return std::sqrt(*last * kPi / static_cast<double>(kNeighbors));
+}
+
+bool is_supported(const TriangleMesh& mesh, const Triangle& face, const PointGrid& cloud,
+                  double h) {
+  const Vec3 &a = mesh.positions[face[0]], &b = mesh.positions[face[1]],
+             &c = mesh.positions[face[2]];
+  const double long_side = 2.0 * kReach.pixels * h;
+  const double longest =
+      std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)});
+  if (longest <= long_side * long_side) return true;
+  const std::array<Vec3, 4> places{(a + b + c) / 3.0, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)};
+  return std::all_of(places.begin(), places.end(),
+                     [&](const Vec3& place) { return is_supported(cloud, place, h, kReach); });
+}
+
+}  // namespace
+
+bool is_supported(const PointGrid& cloud, const Vec3& place, double pixel_size,
+                  const SupportReach& reach) {
+  if (nearest_within(cloud, place, reach.pixels * pixel_size)) return true;
+  const double farthest = kFarthest * pixel_size;
+  const std::optional<Vec3> nearest = nearest_within(cloud, place, farthest);
+  if (!nearest) return false;
+  const std::optional<double> spacing = spacing_at(cloud, *nearest, farthest);
+  return !spacing || glm::length(*nearest - place) <= reach.spacings * *spacing;
+}
+
+std::size_t drop_unsupported_faces(TriangleMesh& mesh, std::span<const Vec3> cloud,
+                                   double pixel_size) {
+  constexpr std::size_t kGrain = 256;
+  if (cloud.empty() || mesh.empty()) return 0;
+  Box region = bounds_of(mesh);
+  region.lower -= Vec3(kFarthest * pixel_size);
+  region.upper += Vec3(kFarthest * pixel_size);
+  const PointGrid points(cloud, region, kReach.pixels * pixel_size);
+  const std::size_t before = mesh.triangles.size();
+  std::vector<std::uint8_t> is_dropped(before, 0);
+  parallel_for(before, kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f)
+      is_dropped[f] = is_supported(mesh, mesh.triangles[f], points, pixel_size) ? 0 : 1;
+  });
+  remove_triangles(mesh.triangles, is_dropped);
+  clean_topology(mesh);
+  remove_unused_vertices(mesh);
+  return before - mesh.triangles.size();
+}
+
+}  // namespace rangezip

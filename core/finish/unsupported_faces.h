@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "core/finish/point_grid.h"
+#include "core/mesh/triangle_mesh.h"
+
+namespace rangezip {
+
+/// How near a place of the surface has a point of the cloud: within so many pixel sides or, where
+/// points are sparse, so many of their spacings.
+struct SupportReach {
+  double pixels = 0.0;
+  double spacings = 0.0;
+};
+
+/// Whether the cloud shows the surface at a place.
+/// @param pixel_size h, model units
+[[nodiscard]] bool is_supported(const PointGrid& cloud, const Vec3& place, double pixel_size,
+                                const SupportReach& reach);
+
+/// Drops the faces that the cloud does not support: the centroid or the middle of a side has no
+/// point within 0.75 h. Scans join samples over steps of depth of a few pixels; such faces lie
+/// across narrow gaps, and a few of them make a handle. Where points are sparse, the limit is 1.5
+/// times the spacing of those next to the face: of points thrown at random over a surface one in a
+/// thousand places has none as near as that. Faces with no side over 1.5 h have a corner within the
+/// limit, and stay. The mesh stays oriented and manifold, without pieces that hang by a vertex.
+/// Without points nothing is dropped. In parallel.
+/// @param pixel_size h, model units; positive
+/// @return how many went
+std::size_t drop_unsupported_faces(TriangleMesh& mesh, std::span<const Vec3> cloud,
+                                   double pixel_size);
+
+}  // namespace rangezip
