@@ -19,7 +19,7 @@
 #include "compare/mesh_values.h"
 #include "core/base/error.h"
 #include "core/base/parallel.h"
-#include "core/mesh/nearest_face.h"
+#include "core/mesh/outgoing_edges.h"
 
 namespace rangezip::compare {
 
@@ -43,7 +43,7 @@ double distance(const TriangleMesh& mesh, std::uint32_t face, const Vec3& point)
 }
 
 /// The faces that a path of that length from the start can touch: they hang together by edges.
-std::vector<std::uint32_t> reachable_faces(const TriangleMesh& mesh, const EdgeMap& edges,
+std::vector<std::uint32_t> reachable_faces(const TriangleMesh& mesh, const OutgoingEdges& edges,
                                            const SurfacePath& path, double length) {
   const double radius = length * (1.0 + kRounding);
   std::vector<std::uint32_t> faces{path.faces.front()};
@@ -52,7 +52,7 @@ std::vector<std::uint32_t> reachable_faces(const TriangleMesh& mesh, const EdgeM
     const Triangle& t = mesh.triangles[faces[i]];
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t next = edges.find(t[(k + 1) % 3], t[k]);
-      if (next == EdgeMap::kNone || !seen.insert(next).second) continue;
+      if (next == OutgoingEdges::kNone || !seen.insert(next).second) continue;
       if (distance(mesh, next, path.points.front()) <= radius) faces.push_back(next);
     }
   }
@@ -180,7 +180,7 @@ std::vector<Vec3> shortest_over(const SurfaceMesh& surface, std::size_t end_face
   return line;
 }
 
-GeodesicMatch judge(const TriangleMesh& mesh, const EdgeMap& edges, const SurfacePath& path) {
+GeodesicMatch judge(const TriangleMesh& mesh, const OutgoingEdges& edges, const SurfacePath& path) {
   const double line = length_of(path.points);
   if (path.faces.size() == 1) {
     return {.line = line, .length = line, .shortest = line, .is_judged = true};
@@ -224,7 +224,7 @@ std::vector<GeodesicMatch> judge_geodesics(const TriangleMesh& mesh,
                                            std::span<const SurfacePath> paths) {
   check_mesh_values("judge_geodesics", mesh);
   check_paths(mesh, paths);
-  const EdgeMap edges = edges_of(mesh);
+  const OutgoingEdges edges(mesh);
   std::vector<GeodesicMatch> matches(paths.size());
   parallel_for(paths.size(), kPathsPerBlock, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)

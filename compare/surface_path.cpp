@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "core/mesh/nearest_face.h"
 #include "core/stitch/predicates.h"
 
 namespace rangezip::compare {
@@ -67,7 +66,7 @@ std::vector<std::uint32_t> Line::faces_at(std::uint32_t f, const GridPoint& plac
     for (std::size_t k = 0; k < 3; ++k) {
       const auto [a, b] = edge_of(face(faces[i]), k);
       const std::uint32_t next = seen_.edges.find(b, a);
-      if (next == EdgeMap::kNone || orientation(point(a), point(b), place) != 0) continue;
+      if (next == OutgoingEdges::kNone || orientation(point(a), point(b), place) != 0) continue;
       const bool is_known = std::find(faces.begin(), faces.end(), next) != faces.end();
       if (!is_known && holds(next, place)) faces.push_back(next);
     }
@@ -113,7 +112,7 @@ Vec3 Line::crossing(const Edge& edge) const {
 
 /// From face to face until one of the `ends`.
 bool Line::walk(std::uint32_t f, const std::vector<std::uint32_t>& ends, SurfacePath& path) const {
-  for (std::size_t steps = 0; steps < kMostFaces && f != EdgeMap::kNone; ++steps) {
+  for (std::size_t steps = 0; steps < kMostFaces && f != OutgoingEdges::kNone; ++steps) {
     path.faces.push_back(f);
     if (std::find(ends.begin(), ends.end(), f) != ends.end()) return true;
     if (!looks_at_viewer(f) || holds(f, to_)) return false;  // the end of another sheet
@@ -150,7 +149,7 @@ ViewedMesh::ViewedMesh(const TriangleMesh& of_mesh, const View& of_view)
     : mesh(&of_mesh),
       view(&of_view),
       image(project_to_image(of_mesh.positions, of_view)),
-      edges(edges_of(of_mesh)) {}
+      edges(of_mesh) {}
 
 std::optional<SurfacePath> follow_line(const ViewedMesh& seen, const SeenPlace& from,
                                        const SeenPlace& to) {

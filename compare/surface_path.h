@@ -6,7 +6,7 @@
 
 #include "core/base/geometry.h"
 #include "core/base/grid.h"
-#include "core/mesh/edge_map.h"
+#include "core/mesh/outgoing_edges.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/stitch/image_plane.h"
 #include "core/view/view.h"
@@ -30,7 +30,7 @@ struct ViewedMesh {
   const TriangleMesh* mesh;
   const View* view;
   ImagePlane image;
-  EdgeMap edges;
+  OutgoingEdges edges;
 };
 
 /// The centre of a pixel on a face that holds it in the image.

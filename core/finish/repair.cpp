@@ -68,6 +68,34 @@ struct FillOutcome {
   std::vector<std::uint8_t> unfilled;  ///< flags of vertices of loops that could not be filled
 };
 
+bool has_point_near(const PointGrid& cloud, const Vec3& place, double radius) {
+  bool found = false;
+  cloud.for_each_near(place, radius, [&](const Vec3& offset) {
+    found = found || glm::dot(offset, offset) < radius * radius;
+  });
+  return found;
+}
+
+/// The triangles of a fill as a mesh of their own.
+TriangleMesh mesh_of_fill(const TriangleMesh& mesh, const HoleFill& fill) {
+  std::vector<std::uint32_t> used;
+  for (const Triangle& t : fill.triangles)
+    used.insert(used.end(), t.begin(), t.end());
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  TriangleMesh own;
+  for (const std::uint32_t v : used)
+    own.positions.push_back(v < mesh.positions.size()
+                                ? mesh.positions[v]
+                                : fill.new_positions[v - mesh.positions.size()]);
+  own.triangles = fill.triangles;
+  for (Triangle& t : own.triangles) {
+    for (std::uint32_t& v : t)
+      v = static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), v) - used.begin());
+  }
+  return own;
+}
+
 /// Whether a fill covers the places of removed faces that it closes over, as far as the cloud shows
 /// that they are places of the surface.
 bool covers_removed(const TriangleMesh& mesh, const std::vector<Triangle>& removed,
@@ -75,29 +103,10 @@ bool covers_removed(const TriangleMesh& mesh, const std::vector<Triangle>& remov
   std::vector<Vec3> places;
   for (const Triangle& t : removed) {
     const Vec3 place = (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3.0;
-    bool is_supported = cloud.empty();
-    cloud.for_each_near(place, kSupport * h, [&](const Vec3& d) {
-      is_supported = is_supported || glm::dot(d, d) < kSupport * kSupport * h * h;
-    });
-    if (is_supported) places.push_back(place);
+    if (cloud.empty() || has_point_near(cloud, place, kSupport * h)) places.push_back(place);
   }
   if (places.empty()) return true;
-  TriangleMesh patch;
-  patch.triangles = fill.triangles;
-  std::vector<std::uint32_t> used;
-  for (const Triangle& t : fill.triangles)
-    used.insert(used.end(), t.begin(), t.end());
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
-  for (const std::uint32_t v : used)
-    patch.positions.push_back(v < mesh.positions.size()
-                                  ? mesh.positions[v]
-                                  : fill.new_positions[v - mesh.positions.size()]);
-  for (Triangle& t : patch.triangles) {
-    for (std::uint32_t& v : t)
-      v = static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), v) - used.begin());
-  }
-  const std::vector<std::uint8_t> covered = covered_points(places, patch, h);
+  const std::vector<std::uint8_t> covered = covered_points(places, mesh_of_fill(mesh, fill), h);
   return std::find(covered.begin(), covered.end(), 0) == covered.end();
 }
 

@@ -18,7 +18,7 @@ constexpr double kFarthest = 6.0;
 constexpr std::size_t kNeighbors = 16;  ///< that tell the spacing, as in core/plan/spacing.h
 constexpr double kPi = 3.14159265358979323846;
 
-/// Squared distance to the nearest point, if there is one within `radius`.
+/// The nearest point, if there is one within `radius`.
 std::optional<Vec3> nearest_within(const PointGrid& cloud, const Vec3& place, double radius) {
   std::optional<Vec3> nearest;
   double least = radius * radius;
