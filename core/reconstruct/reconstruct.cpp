@@ -7,12 +7,12 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
-#include "core/mesh/coverage.h"
 #include "core/mesh/self_intersection.h"
 #include "core/plan/open_sheet.h"
 #include "core/plan/spacing.h"
 #include "core/plan/spread.h"
 #include "core/plan/view_planner.h"
+#include "core/reconstruct/left_out_points.h"
 #include "core/reconstruct/resolution.h"
 #include "core/reconstruct/scan_recipe.h"
 
@@ -164,20 +164,15 @@ class Run {
     clock_.finish("scan");
   }
 
-  /// Samples farther from the mesh than a pixel side; none if they are a small share.
+  /// Samples of places farther from the mesh than a pixel side; none if they are a small share.
   [[nodiscard]] std::vector<Vec3> uncovered_samples() const {
     std::vector<Vec3> chosen;
     for (const std::size_t index : spread_indices(samples_.size(), kJudgedSamples))
       chosen.push_back(samples_[index]);
-    const std::vector<std::uint8_t> is_covered =
-        covered_points(chosen, *session_.mesh(), recipe_.pixel_size);
-    std::vector<Vec3> uncovered;
-    for (std::size_t i = 0; i < chosen.size(); ++i) {
-      if (is_covered[i] == 0) uncovered.push_back(chosen[i]);
-    }
-    const double share = static_cast<double>(uncovered.size()) / static_cast<double>(chosen.size());
-    if (share < kUncoveredShare) uncovered.clear();
-    return uncovered;
+    std::vector<Vec3> left_out = left_out_points(chosen, *session_.mesh(), recipe_.pixel_size);
+    const double share = static_cast<double>(left_out.size()) / static_cast<double>(chosen.size());
+    if (share < kUncoveredShare) left_out.clear();
+    return left_out;
   }
 
   /// The plan was made for a part of the points in small images: what it overlooked, in narrow gaps

@@ -1,0 +1,53 @@
+#include "core/reconstruct/left_out_points.h"
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/base/parallel.h"
+#include "core/finish/point_grid.h"
+#include "core/mesh/coverage.h"
+
+namespace rangezip {
+namespace {
+
+constexpr double kSurroundings = 2.0;  // in distances
+constexpr std::size_t kPointsPerBlock = 512;
+
+std::size_t count_within(const PointGrid& points, const Vec3& place, double radius) {
+  std::size_t count = 0;
+  points.for_each_near(place, radius, [&](const Vec3& offset) {
+    count += glm::dot(offset, offset) <= radius * radius ? 1 : 0;
+  });
+  return count;
+}
+
+}  // namespace
+
+std::vector<Vec3> left_out_points(std::span<const Vec3> points, const TriangleMesh& mesh,
+                                  double distance) {
+  const std::vector<std::uint8_t> is_covered = covered_points(points, mesh, distance);
+  std::vector<Vec3> uncovered;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (is_covered[i] == 0) uncovered.push_back(points[i]);
+  }
+  if (uncovered.empty() || mesh.empty()) return uncovered;
+  const double radius = kSurroundings * distance;
+  Box region = bounds_of(mesh);  // what lies outside is left out as a whole
+  region.lower -= Vec3(radius);
+  region.upper += Vec3(radius);
+  const PointGrid all(points, region, 0.5 * radius), missed(uncovered, region, 0.5 * radius);
+  std::vector<std::uint8_t> is_left_out(uncovered.size(), 0);
+  parallel_for(uncovered.size(), kPointsPerBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t around = count_within(all, uncovered[i], radius);
+      is_left_out[i] = 2 * count_within(missed, uncovered[i], radius) >= around ? 1 : 0;
+    }
+  });
+  std::vector<Vec3> left_out;
+  for (std::size_t i = 0; i < uncovered.size(); ++i) {
+    if (is_left_out[i] != 0) left_out.push_back(uncovered[i]);
+  }
+  return left_out;
+}
+
+}  // namespace rangezip
