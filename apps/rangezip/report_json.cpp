@@ -47,6 +47,7 @@ Json json_of(const StitchReport& stitch) {
 Json json_of(const FinishReport& finish) {
   return {{"self_intersections_cut", finish.self_intersections_cut},
           {"bridged_loops", finish.bridged_loops},
+          {"joined_loops", finish.joined_loops},
           {"cut_handles", finish.cut_handles},
           {"faces_put_back", finish.faces_put_back},
           {"filled_holes", finish.filled_holes},

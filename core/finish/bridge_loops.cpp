@@ -9,6 +9,7 @@
 #include "core/finish/boundary_loops.h"
 #include "core/finish/components.h"
 #include "core/finish/corner_table.h"
+#include "core/finish/loop_neighbors.h"
 
 namespace rangezip {
 namespace {
@@ -16,33 +17,9 @@ namespace {
 /// In h: how far apart the sides of a crack may be, and the longer edges of a bridge.
 constexpr double kMaxGap = 3.0;
 constexpr double kMaxBridgeLength = 4.0;
-/// Loops run beside each other if at least this many vertices, and half of the shorter loop, do.
-constexpr std::size_t kMinBeside = 4;
 /// Cosines: between the two faces of a bridge, and between them and the faces beside it.
 constexpr double kMinCosineInside = 0.3;
 constexpr double kMinCosineBeside = -0.3;
-
-/// A vertex of a boundary, numbered over all loops.
-struct BoundaryVertex {
-  Vec3 position;
-  std::uint32_t loop;
-  std::uint32_t place;  ///< in its loop
-};
-
-/// A vertex of one loop and the nearest one of another loop.
-struct Neighbors {
-  std::uint32_t loop_a, loop_b;  ///< a < b
-  double distance;
-  std::uint32_t place_a, place_b;
-
-  friend bool operator<(const Neighbors& p, const Neighbors& q) {
-    if (p.loop_a != q.loop_a) return p.loop_a < q.loop_a;
-    if (p.loop_b != q.loop_b) return p.loop_b < q.loop_b;
-    if (p.distance != q.distance) return p.distance < q.distance;
-    if (p.place_a != q.place_a) return p.place_a < q.place_a;
-    return p.place_b < q.place_b;
-  }
-};
 
 class Bridger {
  public:
@@ -59,24 +36,18 @@ class Bridger {
 
   std::size_t run() {
     if (joined_.size() < 2) return 0;
-    const std::vector<Neighbors> neighbors = find_neighbors();
+    const std::vector<LoopNeighbors> neighbors = loop_neighbors(
+        loops_, table_, mesh_.positions, kMaxGap * h_,
+        [&](std::uint32_t a, std::uint32_t b) { return component_of(a) != component_of(b); });
     std::vector<std::uint8_t> is_bridged(loops_.size(), 0);
     std::size_t bridges = 0;
-    for (std::size_t i = 0; i < neighbors.size();) {
-      std::size_t end = i;
-      while (end < neighbors.size() && neighbors[end].loop_a == neighbors[i].loop_a &&
-             neighbors[end].loop_b == neighbors[i].loop_b) {
-        ++end;
-      }
-      const std::uint32_t a = neighbors[i].loop_a, b = neighbors[i].loop_b;
-      const std::size_t shorter = std::min(loops_[a].corners.size(), loops_[b].corners.size());
-      if (is_bridged[a] == 0 && is_bridged[b] == 0 && component_of(a) != component_of(b) &&
-          end - i >= std::max(kMinBeside, shorter / 2) && bridge_one({&neighbors[i], end - i})) {
-        is_bridged[a] = is_bridged[b] = 1;
-        join(component_of(a), component_of(b));
-        ++bridges;
-      }
-      i = end;
+    for (const std::span<const LoopNeighbors> pairs : loops_side_by_side(neighbors, loops_)) {
+      const std::uint32_t a = pairs.front().loop_a, b = pairs.front().loop_b;
+      if (is_bridged[a] != 0 || is_bridged[b] != 0 || component_of(a) == component_of(b)) continue;
+      if (!bridge_one(pairs)) continue;
+      is_bridged[a] = is_bridged[b] = 1;
+      join(component_of(a), component_of(b));
+      ++bridges;
     }
     return bridges;
   }
@@ -90,59 +61,6 @@ class Bridger {
     std::replace(joined_.begin(), joined_.end(), b, a);
   }
 
-  /// For each boundary vertex the nearest vertex of each other loop of another component.
-  [[nodiscard]] std::vector<Neighbors> find_neighbors() const {
-    std::vector<BoundaryVertex> vertices;
-    for (std::uint32_t l = 0; l < loops_.size(); ++l) {
-      for (std::uint32_t i = 0; i < loops_[l].corners.size(); ++i) {
-        vertices.push_back({mesh_.positions[table_.head(loops_[l].corners[i])], l, i});
-      }
-    }
-    // Sorted along x: those within the gap stand in a short run.
-    std::sort(vertices.begin(), vertices.end(), [](const auto& p, const auto& q) {
-      if (p.position.x != q.position.x) return p.position.x < q.position.x;
-      return p.loop != q.loop ? p.loop < q.loop : p.place < q.place;
-    });
-    std::vector<Neighbors> found;
-    std::vector<Neighbors> nearest;  // to one vertex, by loop
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      nearest.clear();
-      collect_near(vertices, i, nearest);
-      found.insert(found.end(), nearest.begin(), nearest.end());
-    }
-    std::sort(found.begin(), found.end());
-    return found;
-  }
-
-  void collect_near(const std::vector<BoundaryVertex>& vertices, std::size_t i,
-                    std::vector<Neighbors>& nearest) const {
-    const BoundaryVertex& v = vertices[i];
-    const double gap = kMaxGap * h_;
-    const auto consider = [&](const BoundaryVertex& w) {
-      if (component_of(v.loop) == component_of(w.loop)) return;
-      const double distance = glm::length(v.position - w.position);
-      if (distance > gap) return;
-      const bool is_first = v.loop < w.loop;
-      const Neighbors entry{is_first ? v.loop : w.loop, is_first ? w.loop : v.loop, distance,
-                            is_first ? v.place : w.place, is_first ? w.place : v.place};
-      const auto same = std::find_if(nearest.begin(), nearest.end(), [&](const Neighbors& n) {
-        return n.loop_a == entry.loop_a && n.loop_b == entry.loop_b;
-      });
-      if (same == nearest.end()) {
-        nearest.push_back(entry);
-      } else if (entry < *same) {
-        *same = entry;
-      }
-    };
-    for (std::size_t k = i; k-- > 0 && v.position.x - vertices[k].position.x <= gap;) {
-      consider(vertices[k]);
-    }
-    for (std::size_t k = i + 1; k < vertices.size() && vertices[k].position.x - v.position.x <= gap;
-         ++k) {
-      consider(vertices[k]);
-    }
-  }
-
   [[nodiscard]] Vec3 unit_normal(const Triangle& t) const {
     const Vec3 area =
         area_vector(mesh_.positions[t[0]], mesh_.positions[t[1]], mesh_.positions[t[2]]);
@@ -151,8 +69,8 @@ class Bridger {
   }
 
   /// Tries the pairs of two loops, the nearest first.
-  bool bridge_one(std::span<const Neighbors> pairs) {
-    for (const Neighbors& pair : pairs) {
+  bool bridge_one(std::span<const LoopNeighbors> pairs) {
+    for (const LoopNeighbors& pair : pairs) {
       const auto& corners_a = loops_[pair.loop_a].corners;
       const auto& corners_b = loops_[pair.loop_b].corners;
       const std::size_t nb = corners_b.size();

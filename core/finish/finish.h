@@ -36,7 +36,8 @@ struct FinishReport {
   std::size_t self_intersections_cut = 0;  ///< faces removed because they crossed others
   std::size_t untangled_pairs = 0;         ///< of faces that crossed after vertices had moved
   std::size_t bridged_loops = 0;
-  std::size_t cut_handles = 0;  ///< thinner than what scans resolve
+  std::size_t joined_loops = 0;  ///< pairs inside of holes that lead through the object
+  std::size_t cut_handles = 0;   ///< thinner than what scans resolve
   std::size_t filled_holes = 0;
   std::size_t filled_faces = 0;
   std::size_t faces_put_back = 0;  ///< around holes that could not be closed

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <utility>
 
 namespace rangezip {
 namespace {
@@ -78,29 +76,15 @@ double roundness_of(const LoopGeometry& loop) {
   return kFourPi * glm::length(loop.across) / (loop.perimeter * loop.perimeter);
 }
 
-/// Mean cosine between the faces on both sides of the loop: 1 where a fill continues the surface,
-/// -1 where it folds back.
-double continuation_of(const std::vector<Vec3>& positions, const CornerTable& table,
-                       const BoundaryLoop& loop) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Vec3> beside;
-  for (const std::uint32_t c : loop.corners)
-    beside[{table.head(c), table.vertex(c)}] = unit_normal(positions, table.triangle(c / 3));
-  double sum = 0.0;
-  for (const Triangle& t : fill_loop(positions, table, loop, FillShape::coarse, 0.0).triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto found = beside.find({t[k], t[(k + 1) % 3]});
-      if (found != beside.end()) sum += glm::dot(found->second, unit_normal(positions, t));
-    }
-  }
-  return sum / static_cast<double>(loop.corners.size());
-}
-
 /// The outline of a sheet: a fill would fold back over the sheet, and every point of that would
 /// look as if it were evidence for the fill.
 bool is_outline(const LoopGeometry& geometry, const std::vector<Vec3>& positions,
                 const CornerTable& table, const BoundaryLoop& loop, double pixel_size) {
   if (geometry.perimeter <= kMinOutline * pixel_size) return false;
-  if (roundness_of(geometry) < kSlit) return continuation_of(positions, table, loop) < 0.0;
+  if (roundness_of(geometry) < kSlit) {
+    const HoleFill fill = fill_loop(positions, table, loop, FillShape::coarse, 0.0);
+    return continuation_of(positions, table, loop.corners, fill.triangles) < 0.0;
+  }
   return glm::dot(geometry.across, geometry.beside) < kFoldsBack * glm::length(geometry.across);
 }
 
@@ -112,9 +96,9 @@ bool is_rim(const LoopGeometry& loop, bool is_zipped, double pixel_size) {
 }
 
 /// What the new points of a fill tell about a hole.
-struct Inside {
-  double width = 0.0;       ///< of the widest place, model units
-  bool has_points = false;  ///< of the cloud
+struct FillInside {
+  double width = 0.0;  ///< of the widest place, model units
+  Inside shown = Inside::unknown;
 };
 
 double distance_to(const std::vector<Vec3>& points, const Vec3& p) {
@@ -124,10 +108,10 @@ double distance_to(const std::vector<Vec3>& points, const Vec3& p) {
   return std::sqrt(least);
 }
 
-Inside look_inside(const LoopGeometry& loop, const HoleFill& fill, const PointGrid& cloud,
-                   double pixel_size) {
+FillInside look_inside(const LoopGeometry& loop, const HoleFill& fill, const PointGrid& cloud,
+                       double pixel_size) {
   const double radius = kEvidenceRadius * pixel_size;
-  Inside inside;
+  FillInside inside;
   int samples = 0;
   int supported = 0;
   for (const Vec3& p : fill.new_positions) {
@@ -140,7 +124,8 @@ Inside look_inside(const LoopGeometry& loop, const HoleFill& fill, const PointGr
                         [&](const Vec3& d) { found = found || glm::dot(d, d) < radius * radius; });
     supported += found ? 1 : 0;
   }
-  inside.has_points = samples >= kMinEvidenceSamples && supported > kEvidenceShare * samples;
+  if (samples >= kMinEvidenceSamples)
+    inside.shown = supported > kEvidenceShare * samples ? Inside::points : Inside::air;
   return inside;
 }
 
@@ -155,14 +140,20 @@ std::optional<FillShape> choose_fill(const std::vector<Vec3>& positions, const C
   if (geometry.perimeter <= kSmallPerimeter * h) return FillShape::smooth;
   if (is_outline(geometry, positions, table, loop, h)) return std::nullopt;
   const HoleFill fill = fill_loop(positions, table, loop, FillShape::smooth, h);
-  const Inside inside = look_inside(geometry, fill, cloud, h);
-  if (inside.has_points) return FillShape::smooth;
+  const FillInside inside = look_inside(geometry, fill, cloud, h);
+  if (inside.shown == Inside::points) return FillShape::smooth;
   if (is_rim(geometry, is_zipped, h)) return std::nullopt;
   if (inside.width < options.narrow_width * h) return FillShape::flat;
   if (!is_zipped) return FillShape::zipped;
   const double limit = options.max_hole_perimeter * h;
   if (geometry.perimeter > limit && inside.width > kLargeWidth * limit) return std::nullopt;
   return geometry.perimeter <= kSmoothPerimeter * h ? FillShape::smooth : FillShape::flat;
+}
+
+Inside inside_of_fill(const std::vector<Vec3>& positions, const CornerTable& table,
+                      const BoundaryLoop& loop, const PointGrid& cloud, double pixel_size) {
+  const HoleFill fill = fill_loop(positions, table, loop, FillShape::smooth, pixel_size);
+  return look_inside(geometry_of(positions, table, loop), fill, cloud, pixel_size).shown;
 }
 
 }  // namespace rangezip

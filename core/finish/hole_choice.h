@@ -34,4 +34,16 @@ struct HoleChoiceOptions {
                                                    const PointGrid& cloud,
                                                    const HoleChoiceOptions& options);
 
+/// What a cloud shows inside of a hole, where a fill lies more than 1.5 h away from its loop.
+enum class Inside {
+  unknown,  ///< the hole is too small for that
+  air,      ///< hardly any points
+  points,
+};
+
+/// What it shows where a smooth fill lies.
+[[nodiscard]] Inside inside_of_fill(const std::vector<Vec3>& positions, const CornerTable& table,
+                                    const BoundaryLoop& loop, const PointGrid& cloud,
+                                    double pixel_size);
+
 }  // namespace rangezip

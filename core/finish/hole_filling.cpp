@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/finish/clean_topology.h"
@@ -78,6 +80,26 @@ HoleFill fill_loop(const std::vector<Vec3>& positions, const CornerTable& table,
   }
   fill.new_positions.assign(patch.positions.begin() + n, patch.positions.end());
   return fill;
+}
+
+double continuation_of(const std::vector<Vec3>& positions, const CornerTable& table,
+                       std::span<const std::uint32_t> corners, const std::vector<Triangle>& fill) {
+  const auto normal_of = [&](const Triangle& t) {
+    const Vec3 area = area_vector(positions[t[0]], positions[t[1]], positions[t[2]]);
+    const double length = glm::length(area);
+    return length > 0.0 ? area / length : Vec3{0.0};
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Vec3> beside;
+  for (const std::uint32_t c : corners)
+    beside[{table.head(c), table.vertex(c)}] = normal_of(table.triangle(c / 3));
+  double sum = 0.0;
+  for (const Triangle& t : fill) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto found = beside.find({t[k], t[(k + 1) % 3]});
+      if (found != beside.end()) sum += glm::dot(found->second, normal_of(t));
+    }
+  }
+  return sum / static_cast<double>(corners.size());
 }
 
 void append_fill(TriangleMesh& mesh, const HoleFill& fill, std::size_t base) {

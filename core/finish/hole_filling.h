@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/finish/boundary_loops.h"
@@ -41,6 +43,14 @@ struct HoleFill {
 [[nodiscard]] std::vector<HoleFill> zip_loop(const std::vector<Vec3>& positions,
                                              const CornerTable& table, const BoundaryLoop& loop,
                                              double max_edge);
+
+/// Mean cosine between a fill's faces and the mesh's across the edges of its loops: 1 where it
+/// continues the surface, -1 where it folds back.
+/// @param corners of the loops, as in BoundaryLoop; not empty
+/// @param fill with vertices of the mesh only
+[[nodiscard]] double continuation_of(const std::vector<Vec3>& positions, const CornerTable& table,
+                                     std::span<const std::uint32_t> corners,
+                                     const std::vector<Triangle>& fill);
 
 /// Appends a fill to a mesh; new vertices have no source.
 /// @param base count of positions when the fill was made; the mesh may have grown since

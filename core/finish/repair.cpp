@@ -13,6 +13,7 @@
 #include "core/finish/clean_topology.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/hole_choice.h"
+#include "core/finish/join_loops.h"
 #include "core/finish/removed_faces.h"
 #include "core/finish/verified_fills.h"
 #include "core/mesh/coverage.h"
@@ -180,6 +181,7 @@ void repair(TriangleMesh& mesh, const Pairs& crossing, const PointGrid& cloud,
     progress.check_stop();
     clean(mesh, options, report);
     bridge(mesh, options, report);
+    report.joined_loops += join_loops(mesh, cloud, options.pixel_size);
     const bool is_zipped = round > 0;
     const FillOutcome outcome =
         fill(mesh, is_zipped, removed ? &*removed : nullptr, cloud, options, report);

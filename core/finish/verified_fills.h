@@ -40,4 +40,8 @@ VerifiedFills fill_verified(TriangleMesh& mesh, const CornerTable& table,
                             const std::vector<FillRequest>& requests,
                             const VerifiedFillOptions& options);
 
+/// Appends the fills whose faces cross neither the mesh nor each other; of two that cross, the
+/// earlier one stays. @return how many were appended
+std::size_t append_verified(TriangleMesh& mesh, const std::vector<HoleFill>& fills);
+
 }  // namespace rangezip

@@ -1,0 +1,283 @@
+#include "core/finish/join_loops.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "core/base/parallel.h"
+#include "core/finish/boundary_loops.h"
+#include "core/finish/components.h"
+#include "core/finish/corner_table.h"
+#include "core/finish/hole_choice.h"
+#include "core/finish/loop_neighbors.h"
+#include "core/finish/loop_triangulation.h"
+#include "core/finish/unsupported_faces.h"
+#include "core/finish/verified_fills.h"
+#include "core/mesh/coverage.h"
+
+namespace rangezip {
+namespace {
+
+/// In h: how far apart the loops are, and the longest edges of a strip.
+constexpr double kMaxGap = 3.0;
+constexpr double kMaxEdge = 4.0;
+/// In h: no point tells what lies across a narrower gap.
+constexpr double kTooNarrow = 1.2;
+/// In h: points in the middle of a wider gap are those of no sheet beside it.
+constexpr double kWide = 2.4;
+/// How near the middle of a strip's edge has a point; the same where the gap is wide.
+constexpr SupportReach kSupport{.pixels = 0.6, .spacings = 1.3};
+constexpr SupportReach kWideSupport{.pixels = 0.9, .spacings = 1.3};
+/// Of the middles of long edges; the same where a fill would lie in the air.
+constexpr double kMinSupported = 0.7;
+constexpr double kMinSupportedInAir = 0.3;
+/// In h: a middle nearer to the mesh lies on what the mesh has already, as between two holes beside
+/// each other; so may this share of a strip's middles.
+constexpr double kCovered = 0.35;
+constexpr double kMaxCovered = 0.35;
+/// Mean cosines between a strip and the faces beside it: shown by points, the same where the gap is
+/// wide, and shown by no point.
+constexpr double kMinShown = 0.3;
+constexpr double kMinShownWide = -0.25;
+constexpr double kMinContinued = 0.5;
+/// Seams that are tried for a strip, each a few neighbours farther than the last.
+constexpr int kSeams = 12;
+/// Longer loops are borders rather than rims of holes, and their fills take long.
+constexpr std::size_t kMaxEdges = 300;
+
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+/// A strip between two loops, and what tells whether the object has it.
+struct Strip {
+  std::uint32_t loop_a = 0, loop_b = 0;
+  HoleFill fill;
+  std::vector<Vec3> middles;  ///< of its long edges
+  double mean_edge = 0.0;     ///< of all inner edges
+  bool is_shown = false;      ///< points can tell: most edges are long
+};
+
+/// The vertices of a loop from one place once around, that one twice.
+void append_around(const std::vector<std::uint32_t>& vertices, std::uint32_t place,
+                   std::vector<std::uint32_t>& polygon) {
+  for (std::size_t i = 0; i <= vertices.size(); ++i)
+    polygon.push_back(vertices[(place + i) % vertices.size()]);
+}
+
+void append_around(const std::vector<Vec3>& normals, std::uint32_t place,
+                   std::vector<Vec3>& edge_normals) {
+  for (std::size_t i = 0; i < normals.size(); ++i)
+    edge_normals.push_back(normals[(place + i) % normals.size()]);
+  edge_normals.emplace_back(0.0);  // of the seam
+}
+
+bool has_repeated_edge(const std::vector<Triangle>& triangles) {
+  std::vector<Edge> edges;
+  for (const Triangle& t : triangles) {
+    for (std::size_t i = 0; i < 3; ++i)
+      edges.emplace_back(t[i], t[(i + 1) % 3]);
+  }
+  std::sort(edges.begin(), edges.end());
+  return std::adjacent_find(edges.begin(), edges.end()) != edges.end();
+}
+
+/// The edges of a strip that are no edges of the loops, each once.
+std::vector<Edge> inner_edges(const std::vector<Triangle>& triangles) {
+  std::vector<Edge> edges;
+  for (const Triangle& t : triangles) {
+    for (std::size_t i = 0; i < 3; ++i)
+      edges.push_back(std::minmax(t[i], t[(i + 1) % 3]));
+  }
+  std::sort(edges.begin(), edges.end());
+  std::vector<Edge> inner;
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    if (edges[i] == edges[i + 1]) inner.push_back(edges[i]);
+  }
+  return inner;
+}
+
+class Joiner {
+ public:
+  Joiner(const TriangleMesh& mesh, const PointGrid& cloud, double pixel_size)
+      : mesh_(mesh),
+        cloud_(cloud),
+        h_(pixel_size),
+        table_(mesh.triangles, mesh.positions.size()),
+        loops_(boundary_loops(table_)) {}
+
+  /// The strips to close, none of which shares a loop with another.
+  [[nodiscard]] std::vector<HoleFill> strips() const {
+    if (loops_.size() < 2) return {};
+    const std::vector<std::uint32_t> component = components_of(table_);
+    const auto are_wanted = [&](std::uint32_t a, std::uint32_t b) {
+      return std::max(loops_[a].corners.size(), loops_[b].corners.size()) <= kMaxEdges &&
+             component[loops_[a].corners[0] / 3] == component[loops_[b].corners[0] / 3];
+    };
+    const std::vector<LoopNeighbors> neighbors =
+        loop_neighbors(loops_, table_, mesh_.positions, kMaxGap * h_, are_wanted);
+    const std::vector<std::span<const LoopNeighbors>> pairs = loops_side_by_side(neighbors, loops_);
+    std::vector<std::optional<Strip>> made(pairs.size());
+    parallel_for(pairs.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        made[i] = strip_between(pairs[i]);
+    });
+    std::vector<Strip> strips;
+    for (std::optional<Strip>& strip : made) {
+      if (strip) strips.push_back(std::move(*strip));
+    }
+    return one_for_each_loop(surfaces_among(std::move(strips)));
+  }
+
+ private:
+  /// The narrowest come first.
+  [[nodiscard]] std::vector<HoleFill> one_for_each_loop(std::vector<Strip> strips) const {
+    std::stable_sort(strips.begin(), strips.end(),
+                     [](const Strip& a, const Strip& b) { return a.mean_edge < b.mean_edge; });
+    std::vector<std::uint8_t> is_joined(loops_.size(), 0);
+    std::vector<HoleFill> chosen;
+    for (Strip& strip : strips) {
+      if (is_joined[strip.loop_a] != 0 || is_joined[strip.loop_b] != 0) continue;
+      is_joined[strip.loop_a] = is_joined[strip.loop_b] = 1;
+      chosen.push_back(std::move(strip.fill));
+    }
+    return chosen;
+  }
+
+  /// Those that are surface of the object.
+  [[nodiscard]] std::vector<Strip> surfaces_among(std::vector<Strip> strips) const {
+    std::vector<Vec3> middles;
+    std::vector<std::size_t> first;
+    for (const Strip& strip : strips) {
+      first.push_back(middles.size());
+      middles.insert(middles.end(), strip.middles.begin(), strip.middles.end());
+    }
+    if (strips.empty()) return strips;
+    const std::vector<std::uint8_t> is_covered = covered_points(middles, mesh_, kCovered * h_);
+    std::vector<std::uint8_t> is_kept(strips.size(), 0);
+    parallel_for(strips.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto covered = std::span(is_covered).subspan(first[i], strips[i].middles.size());
+        is_kept[i] = is_surface(strips[i], covered) ? 1 : 0;
+      }
+    });
+    std::vector<Strip> kept;
+    for (std::size_t i = 0; i < strips.size(); ++i) {
+      if (is_kept[i] != 0) kept.push_back(std::move(strips[i]));
+    }
+    return kept;
+  }
+
+  /// The strip between two loops, if there is one without long edges.
+  [[nodiscard]] std::optional<Strip> strip_between(std::span<const LoopNeighbors> pairs) const {
+    const std::size_t step = std::max<std::size_t>(1, pairs.size() / kSeams);
+    for (std::size_t i = 0; i < pairs.size(); i += step) {
+      Strip strip{.loop_a = pairs[i].loop_a,
+                  .loop_b = pairs[i].loop_b,
+                  .fill = {triangulate(pairs[i]), {}}};
+      if (strip.fill.triangles.empty()) continue;
+      measure(strip);
+      return strip;
+    }
+    return std::nullopt;
+  }
+
+  /// Around one loop, over the seam, around the other and back: a polygon that has every vertex
+  /// once, and the ends of the seam twice. Empty if there is no manifold triangulation.
+  [[nodiscard]] std::vector<Triangle> triangulate(const LoopNeighbors& seam) const {
+    std::vector<std::uint32_t> polygon;
+    LoopShape shape;
+    for (const auto& [loop, place] :
+         {std::pair(seam.loop_a, seam.place_a), std::pair(seam.loop_b, seam.place_b)}) {
+      append_around(vertices_of(loops_[loop], table_), place, polygon);
+      append_around(shape_of(loops_[loop], table_, mesh_.positions).edge_normals, place,
+                    shape.edge_normals);
+    }
+    for (const std::uint32_t v : polygon)
+      shape.points.push_back(mesh_.positions[v]);
+    const Edge seam_edge = std::minmax(polygon.front(), polygon.back());
+    shape.is_forbidden = [&](std::uint32_t i, std::uint32_t k) {
+      const std::uint32_t v = polygon[i], w = polygon[k];
+      return v == w || Edge(std::minmax(v, w)) == seam_edge ||
+             glm::length(shape.points[k] - shape.points[i]) > kMaxEdge * h_ ||
+             table_.are_neighbors(v, w);
+    };
+    if (table_.are_neighbors(seam_edge.first, seam_edge.second)) return {};
+    std::vector<Triangle> triangles = triangulate_loop(shape);
+    for (Triangle& t : triangles) {
+      for (std::uint32_t& v : t)
+        v = polygon[v];
+    }
+    if (has_repeated_edge(triangles)) return {};
+    return triangles;
+  }
+
+  void measure(Strip& strip) const {
+    const std::vector<Edge> edges = inner_edges(strip.fill.triangles);
+    for (const auto& [v, w] : edges) {
+      const Vec3 &p = mesh_.positions[v], &q = mesh_.positions[w];
+      const double length = glm::length(q - p);
+      strip.mean_edge += length / static_cast<double>(edges.size());
+      if (length >= kTooNarrow * h_) strip.middles.push_back(0.5 * (p + q));
+    }
+    strip.is_shown = !cloud_.empty() && 2 * strip.middles.size() >= edges.size();
+  }
+
+  /// @param is_covered by the mesh, of each middle
+  [[nodiscard]] bool is_surface(const Strip& strip,
+                                std::span<const std::uint8_t> is_covered) const {
+    const double continued = continuation_of_strip(strip);
+    if (!strip.is_shown)
+      return continued >= kMinContinued && continued > continuation_of_fills(strip);
+    const bool is_wide = strip.mean_edge >= kWide * h_;
+    if (continued < (is_wide ? kMinShownWide : kMinShown)) return false;
+    const auto count = static_cast<double>(strip.middles.size());
+    const auto covered = std::count(is_covered.begin(), is_covered.end(), 1);
+    if (static_cast<double>(covered) > kMaxCovered * count) return false;
+    const Inside a = inside_of(strip.loop_a), b = inside_of(strip.loop_b);
+    if (a == Inside::points || b == Inside::points) return false;
+    const bool is_air = a == Inside::air || b == Inside::air;
+    const auto supported =
+        std::count_if(strip.middles.begin(), strip.middles.end(), [&](const Vec3& middle) {
+          return is_supported(cloud_, middle, h_, is_wide ? kWideSupport : kSupport);
+        });
+    return static_cast<double>(supported) >= (is_air ? kMinSupportedInAir : kMinSupported) * count;
+  }
+
+  [[nodiscard]] double continuation_of_strip(const Strip& strip) const {
+    const auto &a = loops_[strip.loop_a].corners, &b = loops_[strip.loop_b].corners;
+    std::vector<std::uint32_t> corners(a);
+    corners.insert(corners.end(), b.begin(), b.end());
+    return continuation_of(mesh_.positions, table_, corners, strip.fill.triangles);
+  }
+
+  /// Of the better one.
+  [[nodiscard]] double continuation_of_fills(const Strip& strip) const {
+    double best = -1.0;
+    for (const std::uint32_t l : {strip.loop_a, strip.loop_b}) {
+      const HoleFill fill = fill_loop(mesh_.positions, table_, loops_[l], FillShape::coarse, 0.0);
+      best = std::max(best,
+                      continuation_of(mesh_.positions, table_, loops_[l].corners, fill.triangles));
+    }
+    return best;
+  }
+
+  [[nodiscard]] Inside inside_of(std::uint32_t loop) const {
+    return inside_of_fill(mesh_.positions, table_, loops_[loop], cloud_, h_);
+  }
+
+  const TriangleMesh& mesh_;
+  const PointGrid& cloud_;
+  double h_;
+  CornerTable table_;
+  std::vector<BoundaryLoop> loops_;
+};
+
+}  // namespace
+
+std::size_t join_loops(TriangleMesh& mesh, const PointGrid& cloud, double pixel_size) {
+  const std::vector<HoleFill> strips = Joiner(mesh, cloud, pixel_size).strips();
+  return append_verified(mesh, strips);
+}
+
+}  // namespace rangezip

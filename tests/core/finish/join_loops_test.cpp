@@ -1,0 +1,119 @@
+#include "core/finish/join_loops.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "core/mesh/mesh_report.h"
+#include "core/mesh/self_intersection.h"
+#include "tests/core/finish/shapes.h"
+
+namespace rangezip {
+namespace {
+
+using testing::uniform;
+
+constexpr double kAxisRadius = 1.0;
+constexpr double kTubeRadius = 0.4;
+constexpr int kAround = 96;
+constexpr int kAcross = 40;
+constexpr double kSide = 2.0 * std::numbers::pi * kAxisRadius / kAround;  ///< of the triangles
+
+Vec3 on_torus(double around, double across) {
+  const double r = kAxisRadius + kTubeRadius * std::cos(across);
+  return {r * std::cos(around), r * std::sin(around), kTubeRadius * std::sin(across)};
+}
+
+/// A torus whose tube is cut through where `around` lies within `gap` / 2 of 0, model units.
+TriangleMesh cut_torus(double gap) {
+  TriangleMesh mesh;
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  for (int i = 0; i < kAround; ++i) {
+    for (int k = 0; k < kAcross; ++k)
+      mesh.positions.push_back(on_torus((i + 0.5) * kTurn / kAround, k * kTurn / kAcross));
+  }
+  const auto vertex = [](int i, int k) {
+    return static_cast<std::uint32_t>((i % kAround) * kAcross + k % kAcross);
+  };
+  for (int i = 0; i < kAround; ++i) {
+    for (int k = 0; k < kAcross; ++k) {
+      mesh.triangles.push_back({vertex(i, k), vertex(i + 1, k), vertex(i + 1, k + 1)});
+      mesh.triangles.push_back({vertex(i, k), vertex(i + 1, k + 1), vertex(i, k + 1)});
+    }
+  }
+  std::erase_if(mesh.triangles, [&](const Triangle& t) {
+    const Vec3 middle = (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3.0;
+    return middle.x > 0.0 && std::abs(middle.y) < 0.5 * gap;
+  });
+  remove_unused_vertices(mesh);
+  return mesh;
+}
+
+/// Points of the torus, fewer than one in `kSide`^2 / 4; none where the tube is cut if `has_gap`.
+std::vector<Vec3> torus_points(std::uint64_t seed, bool has_gap, double gap) {
+  std::mt19937_64 engine(seed);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 40'000; ++i) {
+    const Vec3 p = on_torus(uniform(engine, 0.0, 6.2832), uniform(engine, 0.0, 6.2832));
+    if (!(has_gap && p.x > 0.0 && std::abs(p.y) < 0.5 * gap)) points.push_back(p);
+  }
+  return points;
+}
+
+PointGrid grid_of(const std::vector<Vec3>& points) {
+  return {points, {Vec3(-2.0), Vec3(2.0)}, 0.7 * kSide};
+}
+
+TEST_CASE("a ring-shaped gap in a tube is closed by a strip, which makes the handle whole") {
+  const auto [gap, seed] = GENERATE(
+      table<double, std::uint64_t>({{1.0 * kSide, 1U}, {2.0 * kSide, 2U}, {2.5 * kSide, 3U}}));
+  CAPTURE(gap, seed);
+  TriangleMesh mesh = cut_torus(gap);
+  REQUIRE(report_mesh(mesh).boundary_loops == 2);
+  REQUIRE(join_loops(mesh, grid_of(torus_points(seed, false, gap)), kSide) == 1);
+  const MeshReport report = report_mesh(mesh);
+  REQUIRE(report.is_manifold());
+  REQUIRE(report.boundary_edges == 0);
+  REQUIRE(report.euler == 0);
+  REQUIRE(self_intersections(mesh).empty());
+}
+
+TEST_CASE("a gap with points of the cloud on neither side of its middle stays") {
+  const double gap = 2.8 * kSide;
+  TriangleMesh mesh = cut_torus(gap);
+  const TriangleMesh before = mesh;
+  REQUIRE(join_loops(mesh, grid_of(torus_points(4, true, gap)), kSide) == 0);
+  REQUIRE(mesh == before);
+}
+
+TEST_CASE("holes beside each other in one sheet are not joined, whatever points lie between them") {
+  TriangleMesh mesh = cut_torus(0.0);
+  const std::vector<Vec3> cloud = torus_points(5, false, 0.0);
+  const double distance = 3.5 * kSide;
+  std::erase_if(mesh.triangles, [&](const Triangle& t) {
+    const Vec3& p = mesh.positions[t[0]];
+    const Vec3 top(0.0, kAxisRadius, kTubeRadius), beside = top + Vec3(distance, 0.0, 0.0);
+    return std::min(glm::length(p - top), glm::length(p - beside)) < 1.3 * kSide;
+  });
+  remove_unused_vertices(mesh);
+  REQUIRE(report_mesh(mesh).boundary_loops == 2);
+  const TriangleMesh before = mesh;
+  REQUIRE(join_loops(mesh, grid_of(cloud), kSide) == 0);
+  REQUIRE(mesh == before);
+}
+
+TEST_CASE("holes opposite to each other in a thin plate are not joined through it") {
+  constexpr int kN = 32;
+  TriangleMesh mesh = testing::cube(kN);
+  for (Vec3& p : mesh.positions)
+    p.z *= 0.03;
+  testing::cut_where(mesh, [](const Vec3& p) { return std::hypot(p.x, p.y) < 0.3; });
+  const TriangleMesh before = mesh;
+  REQUIRE(join_loops(mesh, PointGrid({}, Box{}, 1.0), 2.0 / kN) == 0);
+  REQUIRE(mesh == before);
+}
+
+}  // namespace
+}  // namespace rangezip
