@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -228,6 +229,15 @@ MeshPart cut_out_part(const TriangleMesh& whole, const View& view, std::span<con
     const Triangle& face = whole.triangles[f];
     part.mesh.triangles.push_back({local[face[0]], local[face[1]], local[face[2]]});
   }
+  return part;
+}
+
+MeshPart whole_as_part(const TriangleMesh& whole) {
+  MeshPart part{.mesh = whole, .is_rim = std::vector<std::uint8_t>(whole.positions.size(), 0)};
+  part.vertex_in_whole.resize(whole.positions.size());
+  part.face_in_whole.resize(whole.triangles.size());
+  std::iota(part.vertex_in_whole.begin(), part.vertex_in_whole.end(), 0U);
+  std::iota(part.face_in_whole.begin(), part.face_in_whole.end(), 0U);
   return part;
 }
 

@@ -26,11 +26,14 @@ struct MeshPart {
 [[nodiscard]] MeshPart cut_out_part(const TriangleMesh& whole, const View& view,
                                     std::span<const Pixel> pixels, int margin);
 
+/// All of it: for what leads out of every smaller part.
+[[nodiscard]] MeshPart whole_as_part(const TriangleMesh& whole);
+
 /// Makes of the whole what has become of the part. Vertices of `changed` are first those of the
 /// part, which may have moved, then new ones; those of either kind that it does not use are
 /// dropped. Faces and vertices that stay keep their order, and new ones follow.
 /// @param changes from the part's mesh to `changed`
-/// @pre all rim vertices are used as they were
+/// @pre no face around a rim vertex is among the changes
 void put_back(TriangleMesh& whole, const MeshPart& part, const TriangleMesh& changed,
               const FaceChanges& changes);
 
