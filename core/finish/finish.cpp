@@ -44,8 +44,8 @@ constexpr std::size_t kMostPoints = 24;
 /// Times: with so many fewer triangles than the scans give, where they lie matters more than that
 /// they have one shape.
 constexpr std::size_t kFarFewer = 4;
-/// Of the tolerance: the root mean square, where single places are about three times as far.
-constexpr double kMeanOfTolerance = 0.3;
+/// Of the tolerance: the root mean square, where single places are about twice as far.
+constexpr double kMeanOfTolerance = 0.5;
 /// Of coarsened faces: long triangles stay long (20 degrees), and vertices on creases there.
 constexpr double kCoarseSmallAngle = 0.342;
 constexpr double kCoarseHold = 0.001;
@@ -162,6 +162,17 @@ void extend(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& opt
   report.dropped_faces += extended.dropped.faces;
 }
 
+/// Well-shaped triangles on the surface of the cloud.
+void remesh_on_cloud(TriangleMesh& mesh, const PointGrid& cloud, const PointGrid& surface,
+                     const RemeshOptions& options, FinishReport& report, const Progress& progress) {
+  const RemeshReport remeshed = remesh(mesh, cloud, surface, options, progress);
+  report.split_edges = remeshed.split_edges;
+  report.collapsed_edges = remeshed.collapsed_edges;
+  report.flipped_edges = remeshed.flipped_edges;
+  report.flattened_spikes = remeshed.flattened_spikes;
+  remove_unused_vertices(mesh);
+}
+
 /// Better triangles, closer to the cloud, of a mesh that is closed and clean.
 void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
              FinishReport& report, const Progress& progress) {
@@ -174,17 +185,12 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
   const bool is_wide = fit.window.radius > kThinnedFrom * h;
   const PointGrid thinned = is_wide ? cloud.thinned(kThinnedParts) : PointGrid({}, Box{}, h);
   const PointGrid& surface = is_wide ? thinned : cloud;
-  const RemeshReport remeshed = remesh(mesh, cloud, surface,
-                                       {.pixel_size = h,
-                                        .window = fit.window,
-                                        .triangles = is_coarsened ? 0 : options.triangles,
-                                        .rounds = options.relaxations},
-                                       progress);
-  report.split_edges = remeshed.split_edges;
-  report.collapsed_edges = remeshed.collapsed_edges;
-  report.flipped_edges = remeshed.flipped_edges;
-  report.flattened_spikes = remeshed.flattened_spikes;
-  remove_unused_vertices(mesh);
+  remesh_on_cloud(mesh, cloud, surface,
+                  {.pixel_size = h,
+                   .window = fit.window,
+                   .triangles = is_coarsened ? 0 : options.triangles,
+                   .rounds = options.relaxations},
+                  report, progress);
   const bool is_dense = !is_coarsened && are_points_dense(mesh, cloud, fit.noise, h);
   if (!is_dense) fit_vertices(mesh, surface, fit.window, progress);
   separate(mesh, cloud, options, report, progress);
