@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstddef>
 
 #include "core/base/parallel.h"
 
@@ -143,15 +144,41 @@ void CornerTable::collapse(std::uint32_t corner) {
   const std::uint32_t beyond_uy = across_[next(d)], beyond_yw = across_[previous(d)];
   link(beyond_xu, beyond_wx);
   link(beyond_uy, beyond_yw);
-  for (const std::uint32_t c : {corner, d}) {
-    const std::uint32_t first = c - c % 3;
-    std::fill_n(vertices_.begin() + first, 3, kNone);
-    std::fill_n(across_.begin() + first, 3, kNone);
-  }
+  remove(corner / 3);
+  remove(d / 3);
   corner_of_[u] = kNone;
   set_corner_of(w, beyond_xu);        // was u -> x
   set_corner_of(x, next(beyond_xu));  // leaves x
   set_corner_of(y, beyond_uy);        // was y -> u
+}
+
+bool CornerTable::is_boundary_collapse_ok(std::uint32_t corner) const {
+  if (across_[corner] != kNone) return false;
+  if (across_[next(corner)] == kNone && across_[previous(corner)] == kNone) return false;
+  const std::uint32_t u = vertex(corner), w = head(corner), x = apex(corner);
+  bool ok = true;
+  for_each_neighbor(u, [&](std::uint32_t v) {
+    if (v != w && v != x && ok && are_neighbors(v, w)) ok = false;
+  });
+  return ok;
+}
+
+void CornerTable::collapse_boundary(std::uint32_t corner) {
+  assert(is_boundary_collapse_ok(corner));
+  const std::uint32_t u = vertex(corner), w = head(corner), x = apex(corner);
+  for_each_corner(u, [&](std::uint32_t c) { vertices_[c] = w; });
+  const std::uint32_t beyond_wx = across_[next(corner)], beyond_xu = across_[previous(corner)];
+  link(beyond_xu, beyond_wx);
+  remove(corner / 3);
+  corner_of_[u] = kNone;
+  set_corner_of(w, beyond_xu != kNone ? beyond_xu : next(beyond_wx));
+  set_corner_of(x, beyond_wx != kNone ? beyond_wx : next(beyond_xu));
+}
+
+void CornerTable::remove(std::uint32_t face) {
+  const auto first = static_cast<std::ptrdiff_t>(face) * 3;
+  std::fill_n(vertices_.begin() + first, 3, kNone);
+  std::fill_n(across_.begin() + first, 3, kNone);
 }
 
 std::uint32_t CornerTable::split(std::uint32_t face) {

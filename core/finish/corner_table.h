@@ -105,6 +105,14 @@ class CornerTable {
   /// @pre is_collapse_ok(corner)
   void collapse(std::uint32_t corner);
 
+  /// Whether the half-edge lies on the boundary, and its vertex may move into its head without
+  /// changing the topology: the face's third corner is their only common neighbour, and one of the
+  /// face's other edges has another face.
+  [[nodiscard]] bool is_boundary_collapse_ok(std::uint32_t corner) const;
+  /// Merges the half-edge's vertex into its head; one face gets deleted.
+  /// @pre is_boundary_collapse_ok(corner)
+  void collapse_boundary(std::uint32_t corner);
+
   /// Splits a face into three at a new vertex, whose index is returned (vertex_count() before).
   std::uint32_t split(std::uint32_t face);
   /// Splits an inner edge at a new vertex, whose index is returned; two faces are added.
@@ -116,6 +124,7 @@ class CornerTable {
   void link_opposites(std::span<const std::uint32_t> corners, std::size_t low);
   void link(std::uint32_t a, std::uint32_t b);
   void set_corner_of(std::uint32_t vertex, std::uint32_t some_corner);
+  void remove(std::uint32_t face);
 
   std::vector<std::uint32_t> vertices_;   // of each corner; kNone in deleted faces
   std::vector<std::uint32_t> across_;     // of each corner

@@ -70,53 +70,7 @@ double unit_of(const CornerTable& table, const std::vector<Vec3>& positions,
   return unit;
 }
 
-/// Makes lengths shorter where they grow faster than by the given share of the way.
-void limit_growth(const CornerTable& table, const std::vector<Vec3>& positions, double growth,
-                  std::vector<double>& lengths) {
-  for (bool is_changed = true; is_changed;) {
-    is_changed = false;
-    for (std::uint32_t v = 0; v < lengths.size(); ++v) {
-      table.for_each_neighbor(v, [&](std::uint32_t w) {
-        const double most = lengths[w] + growth * glm::length(positions[w] - positions[v]);
-        if (lengths[v] <= most) return;
-        lengths[v] = most;
-        is_changed = true;
-      });
-    }
-  }
-}
-
 }  // namespace
-
-std::vector<double> graded_edge_lengths(const CornerTable& table,
-                                        const std::vector<Vec3>& positions,
-                                        const std::vector<SurfaceFit>& fits,
-                                        const GradedLengths& options) {
-  constexpr double kGrowth = 0.8;
-  std::vector<double> lengths(positions.size(), options.longest);
-  for (std::uint32_t v = 0; v < lengths.size(); ++v) {
-    if (table.is_boundary(v)) lengths[v] = options.shortest;
-    if (!fits[v].is_found) continue;
-    const double curvature = frobenius(fits[v].bending);
-    const double length = std::sqrt(6.0 * options.tolerance / curvature);  // may be infinite
-    lengths[v] = std::clamp(length, options.shortest, options.longest);
-  }
-  limit_growth(table, positions, kGrowth, lengths);
-  return lengths;
-}
-
-double scale_for_triangles(const CornerTable& table, const std::vector<Vec3>& positions,
-                           const std::vector<double>& lengths, std::size_t triangles) {
-  const double area_of_unit = 0.25 * std::sqrt(3.0);  // of the equilateral triangle of side 1
-  double count = 0.0;
-  for (std::uint32_t f = 0; f < table.face_count(); ++f) {
-    if (table.is_deleted(f)) continue;
-    const double area = 0.5 * glm::length(face_area_vector(table, positions, f));
-    for (const std::uint32_t v : table.triangle(f))
-      count += area / (3.0 * area_of_unit * lengths[v] * lengths[v]);
-  }
-  return std::sqrt(count / static_cast<double>(triangles));
-}
 
 std::vector<double> relative_edge_lengths(const CornerTable& table,
                                           const std::vector<Vec3>& positions,

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "core/finish/corner_table.h"
@@ -19,28 +18,5 @@ namespace rangezip {
                                                         const std::vector<Vec3>& positions,
                                                         const std::vector<SurfaceFit>& fits,
                                                         double length);
-
-struct GradedLengths {
-  double tolerance =
-      0.0;                ///< model units, positive: of triangles from the surface between vertices
-  double shortest = 0.0;  ///< model units, positive, as is longest
-  double longest = 0.0;
-};
-
-/// How long edges may be around each vertex for triangles to stay within the tolerance: of
-/// equilateral ones on a surface with curvature k, sqrt(6 tolerance / k)
-/// [Dunyach, Vanderhaeghe, Barthe, Botsch 2013, 3.2]. Lengths grow by no more than four
-/// fifths of the way between two vertices. O(faces).
-/// @param fits one a vertex; of vertices without one those on the boundary get the shortest, others
-///     take after their neighbours
-[[nodiscard]] std::vector<double> graded_edge_lengths(const CornerTable& table,
-                                                      const std::vector<Vec3>& positions,
-                                                      const std::vector<SurfaceFit>& fits,
-                                                      const GradedLengths& options);
-
-/// The factor by which lengths have to be multiplied for this many triangles to fit on the surface.
-[[nodiscard]] double scale_for_triangles(const CornerTable& table,
-                                         const std::vector<Vec3>& positions,
-                                         const std::vector<double>& lengths, std::size_t triangles);
 
 }  // namespace rangezip

@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/finish/boundary_loops.h"
 #include "core/finish/clean_topology.h"
+#include "core/finish/coarsen.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/extend_border.h"
 #include "core/finish/feature_cleanup.h"
@@ -39,9 +40,17 @@ constexpr int kHandleRounds = 6;  ///< of {cut, close}: paths that touch are cut
 /// Points a face: with more, flat triangles are farther from the surface than its fits.
 constexpr std::size_t kDensePoints = 4;
 /// Points a face: more tell hardly more, and take longer.
-constexpr std::size_t kMostPoints = 12;
-/// In h: averaged over the points around a vertex, less than what a surface bulges that bends by a
-/// tenth of a radian over a triangle.
+constexpr std::size_t kMostPoints = 24;
+/// Times: with so many fewer triangles than the scans give, where they lie matters more than that
+/// they have one shape.
+constexpr std::size_t kFarFewer = 4;
+/// Of the tolerance: the root mean square, where single places are about twice as far.
+constexpr double kMeanOfTolerance = 0.5;
+/// Of coarsened faces: long triangles stay long (20 degrees), and vertices on creases there.
+constexpr double kCoarseSmallAngle = 0.342;
+constexpr double kCoarseHold = 0.001;
+/// Of an edge: averaged over the points around a vertex, less than what a surface bulges that bends
+/// by a tenth of a radian over a triangle.
 constexpr double kHardlyNoise = 0.03;
 /// In h: how far beyond the mesh points may matter.
 constexpr double kRegionMargin = 4.0;
@@ -111,17 +120,64 @@ void mend_slivers(TriangleMesh& mesh, const PointGrid& cloud, const FinishOption
   separate(mesh, cloud, options, report, progress);
 }
 
-/// Whether each face has enough points, with hardly any noise, to be fitted to these themselves.
-bool are_points_dense(const TriangleMesh& mesh, const PointGrid& cloud, const FitWindow& fit,
-                      const FinishOptions& options) {
-  return fit.noise <= kHardlyNoise * options.pixel_size &&
-         cloud.size() >= kDensePoints * mesh.triangles.size();
+/// Whether each face, of edges of about this length, has enough points with hardly any noise to be
+/// fitted to these themselves.
+bool are_points_dense(const TriangleMesh& mesh, const PointGrid& cloud, double noise, double edge) {
+  return noise <= kHardlyNoise * edge && cloud.size() >= kDensePoints * mesh.triangles.size();
+}
+
+/// Whether the mesh is made with the triangles of the scans first, and then coarsened.
+bool is_to_coarsen(const TriangleMesh& mesh, const FinishOptions& options) {
+  return options.flat_tolerance > 0.0 ||
+         (options.triangles > 0 && mesh.triangles.size() > kFarFewer * options.triangles);
+}
+
+/// As few triangles as are asked for, where they are nearest to the cloud.
+void coarsen_to_cloud(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
+                      FinishReport& report, const Progress& progress) {
+  const std::size_t before = mesh.triangles.size();
+  CoarsenOptions coarse{.triangles = options.triangles};
+  if (options.triangles == 0)
+    coarse.tolerance = kMeanOfTolerance * options.flat_tolerance * options.pixel_size;
+  report.collapsed_edges += coarsen(mesh, coarse, progress);
+  remove_unused_vertices(mesh);
+  const std::size_t after = mesh.triangles.size();
+  const double edge =
+      options.pixel_size * std::sqrt(static_cast<double>(before) / static_cast<double>(after));
+  if (are_points_dense(mesh, cloud, report.noise, edge)) {
+    fit_faces(mesh, cloud.points(kMostPoints * after),
+              {.reach = edge, .small_angle = kCoarseSmallAngle, .hold = kCoarseHold}, progress);
+  }
+  separate(mesh, cloud, options, report, progress);
+  mend_slivers(mesh, cloud, options, report, progress);
+}
+
+void extend(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
+            FinishReport& report, const Progress& progress) {
+  const ExtendBorderReport extended = extend_border(
+      mesh, cloud, {.pixel_size = options.pixel_size, .min_component = options.min_component},
+      progress);
+  report.border_steps = extended.steps;
+  report.dropped_components += extended.dropped.components;
+  report.dropped_faces += extended.dropped.faces;
+}
+
+/// Well-shaped triangles on the surface of the cloud.
+void remesh_on_cloud(TriangleMesh& mesh, const PointGrid& cloud, const PointGrid& surface,
+                     const RemeshOptions& options, FinishReport& report, const Progress& progress) {
+  const RemeshReport remeshed = remesh(mesh, cloud, surface, options, progress);
+  report.split_edges = remeshed.split_edges;
+  report.collapsed_edges = remeshed.collapsed_edges;
+  report.flipped_edges = remeshed.flipped_edges;
+  report.flattened_spikes = remeshed.flattened_spikes;
+  remove_unused_vertices(mesh);
 }
 
 /// Better triangles, closer to the cloud, of a mesh that is closed and clean.
 void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
              FinishReport& report, const Progress& progress) {
   const double h = options.pixel_size;
+  const bool is_coarsened = is_to_coarsen(mesh, options);
   FitWindow fit = choose_fit_window(mesh, cloud, h);
   fit.window.widest = kWidestPerGap * options.gap;
   report.noise = fit.noise;
@@ -129,32 +185,23 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
   const bool is_wide = fit.window.radius > kThinnedFrom * h;
   const PointGrid thinned = is_wide ? cloud.thinned(kThinnedParts) : PointGrid({}, Box{}, h);
   const PointGrid& surface = is_wide ? thinned : cloud;
-  const RemeshReport remeshed = remesh(mesh, cloud, surface,
-                                       {.pixel_size = h,
-                                        .window = fit.window,
-                                        .triangles = options.triangles,
-                                        .tolerance = options.flat_tolerance * h,
-                                        .rounds = options.relaxations},
-                                       progress);
-  report.split_edges = remeshed.split_edges;
-  report.collapsed_edges = remeshed.collapsed_edges;
-  report.flipped_edges = remeshed.flipped_edges;
-  report.flattened_spikes = remeshed.flattened_spikes;
-  remove_unused_vertices(mesh);
-  const bool is_dense = are_points_dense(mesh, cloud, fit, options);
+  remesh_on_cloud(mesh, cloud, surface,
+                  {.pixel_size = h,
+                   .window = fit.window,
+                   .triangles = is_coarsened ? 0 : options.triangles,
+                   .rounds = options.relaxations},
+                  report, progress);
+  const bool is_dense = !is_coarsened && are_points_dense(mesh, cloud, fit.noise, h);
   if (!is_dense) fit_vertices(mesh, surface, fit.window, progress);
   separate(mesh, cloud, options, report, progress);
   if (options.snap_features) snap(mesh, cloud, fit, options, report, progress);
   mend_slivers(mesh, cloud, options, report, progress);
   if (is_dense) {
-    fit_faces(mesh, cloud.points(kMostPoints * mesh.triangles.size()), h, progress);
+    fit_faces(mesh, cloud.points(kMostPoints * mesh.triangles.size()), {.reach = h}, progress);
     separate(mesh, cloud, options, report, progress);
   }
-  const ExtendBorderReport extended = extend_border(
-      mesh, cloud, {.pixel_size = h, .min_component = options.min_component}, progress);
-  report.border_steps = extended.steps;
-  report.dropped_components += extended.dropped.components;
-  report.dropped_faces += extended.dropped.faces;
+  extend(mesh, cloud, options, report, progress);
+  if (is_coarsened) coarsen_to_cloud(mesh, cloud, options, report, progress);
 }
 
 }  // namespace

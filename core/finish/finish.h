@@ -23,7 +23,7 @@ struct FinishOptions {
   int relaxations = 7;               ///< of {split, collapse, flip, relax, project}
   std::size_t triangles = 0;    ///< target of `full`, met within a few percent; 0: as many as come
   double flat_tolerance = 0.0;  ///< in h: `full` lets triangles grow where they stay within this of
-                                ///< the surface; 0: they are of about one size
+                                ///< the surface; 0, or with `triangles`: as many as are asked for
   bool snap_features = true;    ///< sharp edges and corners
   double gap = 0.0;  ///< between the contours that the cloud is made of, model units: the surface
                      ///< is fitted to several of them; 0: the points are spread evenly

@@ -17,21 +17,16 @@
 namespace rangezip {
 namespace {
 
-// Angles as cosines, smallest angles as sines.
+// Angles as cosines.
 constexpr int kRounds = 6;
-constexpr int kTurningRounds = 4;      // after the first; later ones find hardly an edge to turn
-constexpr int kSweeps = 10;            // of solving: the rounds go on with what is left
-constexpr double kSmallAngle = 0.515;  // 31 degrees
+constexpr int kTurningRounds = 4;  // after the first; later ones find hardly an edge to turn
+constexpr int kSweeps = 10;        // of solving: the rounds go on with what is left
 constexpr double kMostTurn = 0.5;
 constexpr double kSharpest = 0.5;   // edge that may arise
 constexpr double kTurnGain = 0.95;  // of the squared distances: equal ones would turn to and fro
 constexpr std::array kShares{1.0, 0.5, 0.25};  // of the way of a vertex, the first that may be
-
-/// What holds a vertex against sliding, in the weight of its points: where the surface bends by
-/// more than its root, a tenth of a radian, over an edge, the points decide.
-constexpr double kHold = 0.01;
-constexpr double kHoldAlways = 0.001;  // in points: where there are none
-constexpr double kRelaxStep = 0.55;    // towards the middle of the faces, that is held on to
+constexpr double kHoldAlways = 0.001;          // in points: where there are none
+constexpr double kRelaxStep = 0.55;  // towards the middle of the faces, that is held on to
 constexpr std::size_t kPerBlock = 1024;
 
 /// The normal equations of the points on a face for how far its plane moves at each corner.
@@ -43,10 +38,11 @@ struct FaceSums {
 
 class Fitter {
  public:
-  Fitter(TriangleMesh& mesh, std::vector<Vec3> points, double reach)
+  Fitter(TriangleMesh& mesh, std::vector<Vec3> points, const FitFacesOptions& options)
       : positions_(mesh.positions),
+        options_(options),
         table_(mesh.triangles, mesh.positions.size()),
-        points_(mesh, std::move(points), reach) {}
+        points_(mesh, std::move(points), options.reach) {}
 
   void run(const Progress& progress) {
     for (int round = 0; round < kRounds; ++round) {
@@ -91,7 +87,7 @@ class Fitter {
   [[nodiscard]] bool may_turn(std::uint32_t corner) const {
     const Diamond d(table_, corner);
     const double angle = angle_after_flip(positions_, d);
-    if (angle < kSmallAngle && angle < angle_before_flip(positions_, d)) return false;
+    if (angle < options_.small_angle && angle < angle_before_flip(positions_, d)) return false;
     const DiamondAreas areas(positions_, d);
     return has_cosine(areas.new_a, areas.new_b, kSharpest) && table_.is_flip_ok(corner);
   }
@@ -147,8 +143,9 @@ class Fitter {
         const auto v = static_cast<std::uint32_t>(i);
         if (table_.is_boundary(v)) continue;
         rests_[v] = kRelaxStep * way_to_middle(v);
-        table_.for_each_corner(
-            v, [&](std::uint32_t c) { holds_[v] += kHold * sums_[c / 3].products[c % 3][c % 3]; });
+        table_.for_each_corner(v, [&](std::uint32_t c) {
+          holds_[v] += options_.hold * sums_[c / 3].products[c % 3][c % 3];
+        });
       }
     });
   }
@@ -210,13 +207,14 @@ class Fitter {
       if (!ok) return;
       const Vec3 &p = at(table_.head(c)), &q = at(table_.apex(c));
       const double angle = sine_of_smallest_angle(target, p, q);
-      ok = (angle >= kSmallAngle || angle >= sine_of_smallest_angle(at(v), p, q)) &&
+      ok = (angle >= options_.small_angle || angle >= sine_of_smallest_angle(at(v), p, q)) &&
            has_cosine(area_vector(at(v), p, q), area_vector(target, p, q), kMostTurn);
     });
     return ok;
   }
 
   std::vector<Vec3>& positions_;
+  FitFacesOptions options_;
   CornerTable table_;
   PointsOnFaces points_;
   std::vector<FaceSums> sums_;
@@ -227,10 +225,10 @@ class Fitter {
 
 }  // namespace
 
-void fit_faces(TriangleMesh& mesh, std::vector<Vec3> points, double reach,
+void fit_faces(TriangleMesh& mesh, std::vector<Vec3> points, const FitFacesOptions& options,
                const Progress& progress) {
   if (points.empty() || mesh.triangles.empty()) return;
-  Fitter fitter(mesh, std::move(points), reach);
+  Fitter fitter(mesh, std::move(points), options);
   fitter.run(progress);
   mesh.triangles = fitter.triangles();
 }

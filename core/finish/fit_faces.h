@@ -7,20 +7,29 @@
 
 namespace rangezip {
 
+struct FitFacesOptions {
+  double reach = 0.0;  ///< points farther than this from the mesh do not count, model units;
+                       ///< positive
+  /// Sine of the angle under which none gets smaller: 31 degrees.
+  double small_angle = 0.515;
+  /// What holds vertices in the middle of their faces, in the weight of the points: where the
+  /// surface bends by more than its root, a tenth of a radian, over an edge, the points decide.
+  double hold = 0.01;
+};
+
 /// Moves inner vertices, in any direction, and turns edges, so that the flat triangles are as near
 /// as can be to the points: the least squares of the points' distances from the planes of the faces
 /// they lie on, as in quadric error metrics [Garland, Heckbert 1997], of all vertices together. A
 /// vertex comes to lie off a curved surface, on the outer side of its triangles, and slides to
 /// where the surface bends most. Where it does not bend, vertices move towards the middle of their
 /// faces. In six rounds, in each of which points find their faces anew. Vertices and edges stay
-/// where an angle would get both under 31 degrees and smaller than it is, or a face would turn by
-/// more than 60 degrees. The boundary stays. May leave self-intersections where sheets are close
-/// together. Cost: linear in points and faces; in parallel but for 40 visits a face.
+/// where an angle would get both under the smallest one and smaller than it is, or a face would
+/// turn by more than 60 degrees. The boundary stays. May leave self-intersections where sheets are
+/// close together. Cost: linear in points and faces; in parallel but for 40 visits a face.
 /// @param points of hardly any noise, several a face: fewer than three a vertex leave it
 /// undetermined
-/// @param reach points farther than this from the mesh do not count, model units; positive
 /// @pre oriented, manifold (core/finish/clean_topology.h)
-void fit_faces(TriangleMesh& mesh, std::vector<Vec3> points, double reach,
+void fit_faces(TriangleMesh& mesh, std::vector<Vec3> points, const FitFacesOptions& options,
                const Progress& progress = {});
 
 }  // namespace rangezip

@@ -34,9 +34,6 @@ constexpr double kMostScaling = 1.1;   // of the wanted length, in a round
 constexpr double kEvenLength = 0.99;   // of the edge of as many equilateral triangles
 constexpr std::array kProjections{1.5, 1.0};  // before the first round, with windows of
                                               // so many radii: the stitched mesh is rough
-constexpr double kBendingRadius = 1.7;        // in h
-constexpr double kShortestGraded = 0.9;       // in h
-constexpr double kLongestGraded = 32.0;       // in h
 constexpr int kClosingRounds = 2;
 constexpr int kAligningRounds = 2;
 constexpr int kSizingRounds = 4;  // later ones keep the relative lengths
@@ -61,7 +58,6 @@ class Remesher {
       area += 0.5 * glm::length(face_area_vector(table_, positions_, f));
     scale_ =
         kEvenLength * std::sqrt(area / static_cast<double>(wanted_faces_) * 4.0 / std::sqrt(3.0));
-    if (is_graded()) scale_ = 1.0;
   }
 
   void run(RemeshReport& report, const Progress& progress) {
@@ -71,7 +67,8 @@ class Remesher {
     for (int round = 0; round < options_.rounds; ++round) {
       progress.check_stop();
       if (round + kClosingRounds < options_.rounds) {
-        if (round < kSizingRounds) choose_lengths();
+        if (round < kSizingRounds)
+          lengths_ = relative_edge_lengths(table_, positions_, fits_, scale_);
         if (is_coarse(round)) scale_ *= kFirstScale;
         report.split_edges += split_long_edges();
         report.collapsed_edges += collapse_short_edges();
@@ -99,31 +96,15 @@ class Remesher {
  private:
   [[nodiscard]] const Vec3& at(std::uint32_t vertex) const { return positions_[vertex]; }
   [[nodiscard]] bool is_coarse(int round) const {
-    return round == 0 && options_.rounds > kRoundsAfterCoarse && !is_graded();
+    return round == 0 && options_.rounds > kRoundsAfterCoarse;
   }
   [[nodiscard]] double relative_length(std::uint32_t a, std::uint32_t b) const {
     return glm::length(at(b) - at(a)) / (0.5 * scale_ * (lengths_[a] + lengths_[b]));
   }
 
-  [[nodiscard]] bool is_graded() const { return options_.tolerance > 0.0; }
-
-  void choose_lengths() {
-    if (!is_graded()) {
-      lengths_ = relative_edge_lengths(table_, positions_, fits_, scale_);
-      return;
-    }
-    lengths_ = graded_edge_lengths(table_, positions_, wide_fits(),
-                                   {.tolerance = options_.tolerance,
-                                    .shortest = kShortestGraded * options_.pixel_size,
-                                    .longest = kLongestGraded * options_.pixel_size});
-    if (options_.triangles > 0)
-      scale_ = scale_for_triangles(table_, positions_, lengths_, wanted_faces_);
-  }
-
   /// Edges that may neither be split nor be collapsed yet keep the number of triangles from what
   /// their length promises.
   void adjust_scale() {
-    if (is_graded() && options_.triangles == 0) return;
     const double ratio =
         std::sqrt(static_cast<double>(faces_) / static_cast<double>(wanted_faces_));
     scale_ *= std::clamp(ratio, 1.0 / kMostScaling, kMostScaling);
@@ -241,23 +222,6 @@ class Remesher {
     fit = fit_surface(surface_, p, normal, window);
     if (fit.is_found && glm::dot(fit.normal, normal) < kFitMinCosine) fit.is_found = false;
     return fit.is_found ? p + fit.height * normal : p;
-  }
-
-  /// For each vertex a fit to enough points to tell how the surface bends.
-  [[nodiscard]] std::vector<SurfaceFit> wide_fits() const {
-    const SurfaceWindow window{
-        std::max(options_.window.radius, kBendingRadius * options_.pixel_size),
-        options_.window.height, options_.window.noise, options_.window.widest};
-    std::vector<SurfaceFit> fits(positions_.size());
-    parallel_for(fits.size(), kPerBlock, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const auto v = static_cast<std::uint32_t>(i);
-        if (table_.corner_of(v) == CornerTable::kNone || table_.is_boundary(v)) continue;
-        const Vec3 normal = vertex_normal(table_, positions_, v);
-        fits[v] = fit_surface(surface_, at(v), normal, window);
-      }
-    });
-    return fits;
   }
 
   [[nodiscard]] std::vector<Vec3> surface_normals() const {

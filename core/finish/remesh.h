@@ -14,8 +14,6 @@ struct RemeshOptions {
   SurfaceWindow window;       ///< of the fits to the surface
   std::size_t triangles = 0;  ///< how many there are to be, met within a few percent; 0: as many as
                               ///< there are
-  double tolerance = 0.0;     ///< model units: triangles grow where they stay within this of the
-                              ///< surface; 0: they are of about one size
   int rounds = 7;             ///< fewer than three keep the number of triangles
 };
 

@@ -262,9 +262,9 @@ void describe(Fields& f, FinishMesh& command) {
   f.integer("relaxations", relaxations, kCount, "rounds of improving the triangles");
   f.integer("triangles", triangles, kCount,
             "how many there are to be, met within a few percent; 0: as many as come");
-  f.number(
-      "flat_tolerance", flat_tolerance, kNotNegative,
-      "pixel sizes; triangles grow where they stay within this of the surface; 0: of one size");
+  f.number("flat_tolerance", flat_tolerance, kNotNegative,
+           "pixel sizes; edges collapse where triangles stay within this of the surface; 0: of one "
+           "size");
   f.boolean("snap_features", snap_features, "moves vertices onto sharp edges and corners");
   f.number("gap", gap, kNotNegative,
            "model units; between the contours that the points lie on; 0: they are spread evenly");

@@ -129,15 +129,15 @@ class Run {
       const std::vector<Vec3> on_polygons = area_samples(scene_, kAreaSamples);
       samples_.insert(samples_.end(), on_polygons.begin(), on_polygons.end());
     }
-    const Resolution resolution =
-        choose_resolution(scene_, samples_, options_.pixel_size, options_.triangles,
-                          options_.finish == FinishMethod::full);
+    const bool is_finished_whole = options_.finish == FinishMethod::full;
+    const Resolution resolution = choose_resolution(scene_, samples_, options_.pixel_size,
+                                                    options_.triangles, is_finished_whole);
     recipe_ = {.method = options_.method,
                .bounds = resolution.bounds,
                .pixel_size = resolution.pixel_size,
                .point_size = resolution.point_size,
                .gap = resolution.gap,
-               .decimate = options_.decimate,
+               .decimate = is_finished_whole ? std::nullopt : options_.decimate,
                .has_points = scene_.point_count() > 0};
     if (recipe_.has_points) recipe_.one_sided = is_open_sheet(rasterizer_, scene_points());
     result_.report.pixel_size = recipe_.pixel_size;

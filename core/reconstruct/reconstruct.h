@@ -28,7 +28,7 @@ struct ReconstructOptions {
                                          ///< finish; without it only roughly
   std::optional<int> views;              ///< planned views; absent: until the cloud is covered
   std::optional<double> decimate;        ///< in pixel sides: triangles grow where they stay within
-                                         ///< this of the surface, in scans and in the full finish
+                                         ///< this of the surface, in the full finish, else in scans
   std::optional<FinishMethod> finish = FinishMethod::full;  ///< absent: no finish
   int threads = 0;  ///< 0: all of the machine; the mesh never depends on it
 };

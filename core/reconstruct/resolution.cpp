@@ -16,8 +16,9 @@ constexpr std::size_t kTrianglesOfPolygons = 100'000;
 /// A pixel becomes two triangles of half its area each, stretched by the tilt of the surface to
 /// the view that won it (measured on the models of the benchmarks: 1.1 on average).
 constexpr double kTrianglesPerPixelArea = 2.0 / 1.1;
-/// Of pixels than the edges of a mesh with fewer triangles: scans of four times as many.
-constexpr double kFinerThanMesh = 2.0;
+/// Of pixels than the edges of a mesh with fewer triangles, at most: scans of up to 64 times as
+/// many show all that such a mesh can, and finer ones take longer.
+constexpr double kFinerThanMesh = 8.0;
 constexpr int kImageMargin = 16;  ///< pixels that framing and rounding may add
 
 double pixel_size_for(double area, std::size_t triangles) {

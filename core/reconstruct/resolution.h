@@ -19,9 +19,9 @@ struct Resolution {
 
 /// Chooses the pixel side: as given; else from the point spacing (pixel_size_from_spacing()), or
 /// for polygons only so that they get about 100 K triangles; finer if `triangles` are more than
-/// that gives. For fewer, the scans stay finer than the mesh that is made of them, by up to half
-/// the pixel side, if that mesh `is_remeshed`; else the pixel is as large as the triangles demand.
-/// Never so fine that an image outgrows the rasterizer.
+/// that gives. For fewer, the scans stay finer than the mesh that is made of them, down to an
+/// eighth of the pixel side, if that mesh `is_remeshed`; else the pixel is as large as the
+/// triangles demand. Never so fine that an image outgrows the rasterizer.
 /// @param samples the points of the scene, in its order, then area samples of its polygons
 /// @throws InvalidArgument for a pixel side or a target that is not positive.
 [[nodiscard]] Resolution choose_resolution(const Scene& scene, std::span<const Vec3> samples,

@@ -82,6 +82,35 @@ TEST_CASE("random flips, collapses and splits keep the surface manifold and its 
   REQUIRE(report.boundary_edges == boundary);
 }
 
+TEST_CASE("collapses on the boundary take its edges away and keep the topology") {
+  const std::uint64_t seed = GENERATE(1U, 2U, 3U);
+  CAPTURE(seed);
+  TriangleMesh mesh = testing::sphere(6);
+  testing::cut_where(mesh, [](const Vec3& p) { return std::abs(p.z) > 0.7; });
+  const MeshReport before = report_mesh(mesh);
+  CornerTable table(mesh.triangles, mesh.positions.size());
+  std::mt19937_64 engine(seed);
+  std::size_t collapses = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const auto c = static_cast<std::uint32_t>(engine() % table.corner_count());
+    if (table.is_deleted(c / 3)) continue;
+    if (table.is_boundary_collapse_ok(c)) {
+      table.collapse_boundary(c);
+      ++collapses;
+    } else if (engine() % 4 == 0 && table.is_collapse_ok(c)) {
+      table.collapse(c);
+    }
+    if (i % 100 == 0) require_consistent(table);
+  }
+  require_consistent(table);
+  const MeshReport after = report_mesh(mesh_of(table));
+  REQUIRE(collapses > 10);
+  REQUIRE(after.is_manifold());
+  REQUIRE(after.euler == before.euler);
+  REQUIRE(after.boundary_edges == before.boundary_edges - collapses);
+  REQUIRE(after.boundary_edges >= 6);  // of two loops
+}
+
 TEST_CASE("a tetrahedron allows no collapse and no flip") {
   const CornerTable table({{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}, 4);
   for (std::uint32_t c = 0; c < 12; ++c) {

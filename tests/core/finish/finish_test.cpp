@@ -85,6 +85,49 @@ TEST_CASE("a torn and crumpled sphere becomes closed and free of self-intersecti
   REQUIRE(result.report.self_intersections_cut > 0);
 }
 
+TEST_CASE(
+    "far fewer triangles than the scans give are nearer to the cloud than evenly sized ones") {
+  constexpr int kN = 48;
+  TriangleMesh ellipsoid = testing::sphere(kN);
+  std::vector<Vec3> cloud = sphere_points(60000, 1);
+  const Vec3 axes(1.0, 1.0, 4.0);
+  for (std::vector<Vec3>* points : {&ellipsoid.positions, &cloud}) {
+    for (Vec3& p : *points)
+      p *= axes;
+  }
+  FinishOptions options = options_for(kN, FinishMethod::full);
+  options.triangles = 1000;
+  const FinishResult result = finish(ellipsoid, cloud, options);
+  require_clean(result.mesh);
+  REQUIRE(result.mesh.triangles.size() == Approx(1000.0).epsilon(0.02));
+  REQUIRE(testing::smallest_angle(result.mesh) > 0.17);
+  double sum = 0.0;  // of squared distances, of the faces' middles, as those of the unit sphere
+  for (const Triangle& t : result.mesh.triangles) {
+    const auto& p = result.mesh.positions;
+    const Vec3 middle = (p[t[0]] + p[t[1]] + p[t[2]]) / (3.0 * axes);
+    sum += (glm::length(middle) - 1.0) * (glm::length(middle) - 1.0);
+  }
+  // Of equilateral ones of the same number, with corners on the surface, 0.009.
+  REQUIRE(std::sqrt(sum / 1000.0) < 0.0025);
+}
+
+TEST_CASE("with a tolerance a cube keeps its edges with far fewer triangles") {
+  constexpr int kN = 40;
+  std::mt19937_64 engine(1);
+  std::vector<Vec3> cloud(60000);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    cloud[i] = {uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1)};
+    cloud[i][static_cast<int>(i % 3)] = i % 2 == 0 ? 1.0 : -1.0;
+  }
+  FinishOptions options = options_for(kN, FinishMethod::full);
+  const FinishResult whole = finish(testing::cube(kN), cloud, options);
+  options.flat_tolerance = 0.01;
+  const FinishResult result = finish(testing::cube(kN), cloud, options);
+  require_clean(result.mesh);
+  REQUIRE(5 * result.mesh.triangles.size() < whole.mesh.triangles.size());
+  REQUIRE(testing::volume_of(result.mesh) == Approx(8.0).epsilon(1e-4));
+}
+
 TEST_CASE("a second finish changes nothing that the first one closed") {
   constexpr int kN = 32;
   const std::vector<Vec3> cloud = sphere_points(40000, 1);

@@ -59,7 +59,7 @@ TEST_CASE("faces come to lie on a sphere with a tenth of the squared error of co
   const std::vector<Vec3> points = testing::sphere_points(0.05, 0.0, engine);
   TriangleMesh mesh = testing::sphere(8);
   const double before = mean_square(mesh, points);
-  fit_faces(mesh, points, kReach);
+  fit_faces(mesh, points, {.reach = kReach});
   REQUIRE(mean_square(mesh, points) < before / 10.0);
 }
 
@@ -73,7 +73,7 @@ TEST_CASE("vertices slide onto the edges of a cube that the mesh cuts off") {
   }
   const std::vector<Vec3> points = cube_points(12'000, engine);
   const double before = mean_square(mesh, points);
-  fit_faces(mesh, points, kReach);
+  fit_faces(mesh, points, {.reach = kReach});
   REQUIRE(mean_square(mesh, points) < before / 100.0);
 }
 
@@ -86,7 +86,7 @@ TEST_CASE("no angle under 31 degrees arises, whatever the points ask for") {
             Vec3(uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1)));
   TriangleMesh mesh = testing::sphere(8);
   const double before = smallest_sine(mesh);
-  fit_faces(mesh, points, kReach);
+  fit_faces(mesh, points, {.reach = kReach});
   REQUIRE(smallest_sine(mesh) >= std::min(before, 0.515));
 }
 
@@ -96,7 +96,7 @@ TEST_CASE("the boundary stays where it is") {
   TriangleMesh mesh = testing::sphere(8);
   testing::cut_where(mesh, [](const Vec3& p) { return p.z > 0.5; });
   const TriangleMesh before = mesh;
-  fit_faces(mesh, points, kReach);
+  fit_faces(mesh, points, {.reach = kReach});
   REQUIRE(mesh.positions != before.positions);
   const CornerTable table(before.triangles, before.positions.size());
   for (std::uint32_t v = 0; v < before.positions.size(); ++v) {
@@ -108,15 +108,15 @@ TEST_CASE("the bits are the same for any number of threads") {
   std::mt19937_64 engine(5);
   const std::vector<Vec3> points = testing::sphere_points(0.05, 0.0, engine);
   std::array<TriangleMesh, 2> meshes{testing::sphere(12), testing::sphere(12)};
-  run_with_threads(1, [&] { fit_faces(meshes[0], points, kReach); });
-  run_with_threads(4, [&] { fit_faces(meshes[1], points, kReach); });
+  run_with_threads(1, [&] { fit_faces(meshes[0], points, {.reach = kReach}); });
+  run_with_threads(4, [&] { fit_faces(meshes[1], points, {.reach = kReach}); });
   REQUIRE(meshes[0] == meshes[1]);
 }
 
 TEST_CASE("without points nothing changes") {
   TriangleMesh mesh = testing::sphere(6);
   const TriangleMesh before = mesh;
-  fit_faces(mesh, {}, kReach);
+  fit_faces(mesh, {}, {.reach = kReach});
   REQUIRE(mesh == before);
 }
 

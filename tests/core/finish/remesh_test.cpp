@@ -5,7 +5,6 @@
 #include <random>
 
 #include "core/base/parallel.h"
-#include "core/finish/edge_lengths.h"
 #include "core/finish/triangle_shape.h"
 #include "core/mesh/mesh_report.h"
 #include "tests/core/finish/shapes.h"
@@ -78,53 +77,6 @@ TEST_CASE("remesh meets a number of triangles") {
   const auto got = static_cast<double>(rough.mesh.triangles.size());
   REQUIRE(got == Approx(static_cast<double>(wanted)).epsilon(0.05));
   REQUIRE(report_mesh(rough.mesh).euler == 2);
-}
-
-TEST_CASE("remesh with a tolerance makes triangles as large as that allows") {
-  RoughSphere rough = rough_sphere(40, 6);
-  const std::size_t before = rough.mesh.triangles.size();
-  const PointGrid cloud = rough.cloud();
-  RemeshOptions options = rough.options();
-  options.tolerance = 0.25 * rough.h;
-  remesh(rough.mesh, cloud, cloud, options);
-  remove_unused_vertices(rough.mesh);
-  REQUIRE(report_mesh(rough.mesh).is_manifold());
-  REQUIRE(report_mesh(rough.mesh).euler == 2);
-  REQUIRE(rough.mesh.triangles.size() < before / 2);
-  // The two curvatures of the unit sphere count together as the root of 2.
-  const double side = std::sqrt(6.0 * options.tolerance / std::sqrt(2.0));
-  const double area = 4.0 * std::acos(-1.0) / static_cast<double>(rough.mesh.triangles.size());
-  REQUIRE(std::sqrt(area * 4.0 / std::sqrt(3.0)) == Approx(side).epsilon(0.2));
-  for (const Triangle& t : rough.mesh.triangles) {
-    const Vec3 middle =
-        (rough.mesh.positions[t[0]] + rough.mesh.positions[t[1]] + rough.mesh.positions[t[2]]) /
-        3.0;
-    REQUIRE(std::abs(glm::length(middle) - 1.0) < 2.0 * options.tolerance);
-  }
-}
-
-TEST_CASE("edges grow gradually from where a surface bends to where it is flat") {
-  const TriangleMesh mesh = testing::sphere(20);
-  const CornerTable table(mesh.triangles, mesh.positions.size());
-  std::vector<SurfaceFit> fits(mesh.positions.size());
-  for (std::size_t v = 0; v < fits.size(); ++v) {
-    fits[v].is_found = true;
-    if (mesh.positions[v].z > 0.999) fits[v].bending = Mat3{100.0};
-  }
-  const std::vector<double> lengths = graded_edge_lengths(
-      table, mesh.positions, fits, {.tolerance = 1e-3, .shortest = 1e-3, .longest = 1.0});
-  double largest = 0.0;
-  for (std::uint32_t v = 0; v < fits.size(); ++v) {
-    largest = std::max(largest, lengths[v]);
-    if (fits[v].bending[0][0] > 0.0) {
-      REQUIRE(lengths[v] == Approx(std::sqrt(6e-3 / (100.0 * std::sqrt(3.0)))));
-    }
-    table.for_each_neighbor(v, [&](std::uint32_t w) {
-      const double way = glm::length(mesh.positions[v] - mesh.positions[w]);
-      REQUIRE(lengths[v] <= lengths[w] + 0.8 * way + 1e-12);
-    });
-  }
-  REQUIRE(largest == 1.0);
 }
 
 TEST_CASE("remesh keeps the boundary and does nothing to the topology") {
