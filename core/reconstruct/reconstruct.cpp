@@ -27,7 +27,9 @@ constexpr int kCoverRounds = 2;
 constexpr int kCoverViewsPerRound = 12;
 /// In h: the pixels of those views, since what is left out is narrower than what h resolves.
 constexpr double kCoverPixel = 0.5;
-constexpr std::size_t kMinNewPoints = 40;  ///< that a view must add: fewer are a few pixels
+constexpr double kMinNewPoints = 40;  ///< that a view must add: fewer are a few pixels
+/// Of the samples: of noise of a thousandth of the diagonal, 0.25 % are left out by mere chance.
+constexpr double kUncoveredShare = 0.003;
 /// Of the samples: of narrow gaps more is left out than of a body with single holes in it.
 constexpr double kNarrowShare = 0.02;
 constexpr std::size_t kJudgedSamples = 100'000;
@@ -182,8 +184,11 @@ class Run {
     finer.pixel_size *= kCoverPixel;
     for (int round = 0; round < kCoverRounds; ++round) {
       const std::vector<Vec3> uncovered = uncovered_samples();
-      if (uncovered.size() < kMinNewPoints) break;
-      if (round == 0) has_narrow_gaps_ = are_narrow_gaps(uncovered.size());
+      const double share = static_cast<double>(uncovered.size()) /
+                           static_cast<double>(std::min(samples_.size(), kJudgedSamples));
+      if (share < kUncoveredShare) break;
+      // Where contours lie apart every face is far from points, and none across a gap can be told.
+      if (round == 0) has_narrow_gaps_ = share >= kNarrowShare && recipe_.gap == 0.0;
       if (has_narrow_gaps_) drop_unsupported();
       const ViewPlan plan = plan_views_of(
           rasterizer_, samples_, uncovered, finer.pixel_size,
@@ -198,13 +203,6 @@ class Run {
       scan_into_holes(plan.directions, finer);
     }
     clock_.finish("uncovered");
-  }
-
-  /// Where contours lie apart every face is far from points, and none across a gap can be told.
-  [[nodiscard]] bool are_narrow_gaps(std::size_t uncovered) const {
-    const std::size_t judged = std::min(samples_.size(), kJudgedSamples);
-    return recipe_.gap == 0.0 &&
-           static_cast<double>(uncovered) >= kNarrowShare * static_cast<double>(judged);
   }
 
   /// Faces across gaps hide what lies in them, and make handles.
