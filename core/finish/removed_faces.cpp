@@ -4,10 +4,17 @@
 #include <numeric>
 #include <unordered_set>
 
+#include "core/mesh/coverage.h"
 #include "core/mesh/self_intersection.h"
 
 namespace rangezip {
 namespace {
+
+/// In h: less than what a fill closes over where it gives up a part of the surface, more than what
+/// it cuts off the ragged rim of a hole.
+constexpr double kStandsFor = 1.5;
+/// Of the places: those of a corner, once rounds of widening have taken rings around it.
+constexpr double kMayLose = 0.05;
 
 EdgeMap edges_of(const std::vector<Triangle>& triangles) {
   EdgeMap edges(3 * triangles.size());
@@ -94,6 +101,12 @@ std::size_t RemovedFaces::put_back(TriangleMesh& mesh) const {
     crosses[std::max(i, j)] = 1;
   remove_triangles(mesh.triangles, crosses);
   return mesh.triangles.size() - before;
+}
+
+bool stands_for(const TriangleMesh& fill, std::span<const Vec3> places, double pixel_size) {
+  const std::vector<std::uint8_t> covered = covered_points(places, fill, kStandsFor * pixel_size);
+  const auto lost = static_cast<double>(std::count(covered.begin(), covered.end(), 0));
+  return lost <= kMayLose * static_cast<double>(places.size());
 }
 
 }  // namespace rangezip

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/finish/boundary_loops.h"
@@ -33,5 +34,13 @@ class RemovedFaces {
   std::vector<Triangle> start_;
   EdgeMap edges_;  ///< of start_
 };
+
+/// Whether a fill may take the place of surface that it closes over: of its places all but one in
+/// twenty lie within 1.5 h of the fill. A flat fill over a hole at a sharp edge leaves out a
+/// corner; one that closes over a finger or across the mouth of a slot leaves out most.
+/// @param places of that surface
+/// @param pixel_size h, model units
+[[nodiscard]] bool stands_for(const TriangleMesh& fill, std::span<const Vec3> places,
+                              double pixel_size);
 
 }  // namespace rangezip

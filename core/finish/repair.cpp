@@ -16,7 +16,6 @@
 #include "core/finish/join_loops.h"
 #include "core/finish/removed_faces.h"
 #include "core/finish/verified_fills.h"
-#include "core/mesh/coverage.h"
 #include "core/mesh/self_intersection.h"
 
 namespace rangezip {
@@ -97,18 +96,16 @@ TriangleMesh mesh_of_fill(const TriangleMesh& mesh, const HoleFill& fill) {
   return own;
 }
 
-/// Whether a fill covers the places of removed faces that it closes over, as far as the cloud shows
-/// that they are places of the surface.
-bool covers_removed(const TriangleMesh& mesh, const std::vector<Triangle>& removed,
-                    const HoleFill& fill, const PointGrid& cloud, double h) {
+/// Whether a fill stands for the places of removed faces that it closes over, as far as the cloud
+/// shows that they are places of the surface.
+bool stands_for_removed(const TriangleMesh& mesh, const std::vector<Triangle>& removed,
+                        const HoleFill& fill, const PointGrid& cloud, double h) {
   std::vector<Vec3> places;
   for (const Triangle& t : removed) {
     const Vec3 place = (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3.0;
     if (cloud.empty() || has_point_near(cloud, place, kSupport * h)) places.push_back(place);
   }
-  if (places.empty()) return true;
-  const std::vector<std::uint8_t> covered = covered_points(places, mesh_of_fill(mesh, fill), h);
-  return std::find(covered.begin(), covered.end(), 0) == covered.end();
+  return places.empty() || stands_for(mesh_of_fill(mesh, fill), places, h);
 }
 
 FillOutcome fill(TriangleMesh& mesh, bool is_zipped, const RemovedFaces* removed,
@@ -132,7 +129,7 @@ FillOutcome fill(TriangleMesh& mesh, bool is_zipped, const RemovedFaces* removed
   const TriangleMesh before = removed != nullptr ? mesh : TriangleMesh{};
   if (removed != nullptr) {
     fill_options.may_stay = [&](const BoundaryLoop& loop, const HoleFill& made) {
-      return covers_removed(before, removed->behind(table, loop), made, cloud, h);
+      return stands_for_removed(before, removed->behind(table, loop), made, cloud, h);
     };
   }
   const VerifiedFills fills = fill_verified(mesh, table, requests, fill_options);

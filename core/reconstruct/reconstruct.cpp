@@ -1,5 +1,6 @@
 #include "core/reconstruct/reconstruct.h"
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <string>
@@ -26,9 +27,11 @@ constexpr int kCoverRounds = 2;
 constexpr int kCoverViewsPerRound = 12;
 /// In h: the pixels of those views, since what is left out is narrower than what h resolves.
 constexpr double kCoverPixel = 0.5;
-/// Of the samples: of a body that is seen whole fewer are left, and fill views see to them.
-constexpr double kUncoveredShare = 0.02;
 constexpr double kMinNewPoints = 40;  ///< that a view must add: fewer are a few pixels
+/// Of the samples: of noise of a thousandth of the diagonal, 0.25 % are left out by mere chance.
+constexpr double kUncoveredShare = 0.003;
+/// Of the samples: of narrow gaps more is left out than of a body with single holes in it.
+constexpr double kNarrowShare = 0.02;
 constexpr std::size_t kJudgedSamples = 100'000;
 constexpr std::size_t kCoverSamples = 2'000'000;  ///< drawn to plan views of what is uncovered
 constexpr double kCosine75Degrees = 0.2588190451025207;  ///< steeper cells are cut, see scan_recipe
@@ -164,48 +167,46 @@ class Run {
     clock_.finish("scan");
   }
 
-  /// Samples of places farther from the mesh than a pixel side; none if they are a small share.
+  /// Samples of places farther from the mesh than a pixel side, out of kJudgedSamples.
   [[nodiscard]] std::vector<Vec3> uncovered_samples() const {
     std::vector<Vec3> chosen;
     for (const std::size_t index : spread_indices(samples_.size(), kJudgedSamples))
       chosen.push_back(samples_[index]);
-    std::vector<Vec3> left_out = left_out_points(chosen, *session_.mesh(), recipe_.pixel_size);
-    const double share = static_cast<double>(left_out.size()) / static_cast<double>(chosen.size());
-    if (share < kUncoveredShare) left_out.clear();
-    return left_out;
+    return left_out_points(chosen, *session_.mesh(), recipe_.pixel_size);
   }
 
-  /// The plan was made for a part of the points in small images: what it overlooked, in narrow gaps
-  /// above all, is looked for again with the points that are left and the pixels of the scans. Not
-  /// where the caller has said how many views there are to be.
+  /// The plan was made for a part of the points in small images: what it overlooked, the walls of
+  /// drilled holes and of narrow gaps above all, is looked for again with the points that are left
+  /// and finer pixels. Not where the caller has said how many views there are to be.
   void scan_uncovered() {
     if (options_.views) return;
     ScanRecipe finer = recipe_;
     finer.pixel_size *= kCoverPixel;
     for (int round = 0; round < kCoverRounds; ++round) {
       const std::vector<Vec3> uncovered = uncovered_samples();
-      if (uncovered.empty()) break;
-      drop_unsupported();
-      const ViewPlan plan =
-          plan_views_of(rasterizer_, samples_, uncovered, finer.pixel_size,
-                        {.max_views = kCoverViewsPerRound,
-                         .subset = kCoverSamples,
-                         .max_slope_cosine = kCosine75Degrees,
-                         .coverage = 1.0,
-                         .min_gain = kMinNewPoints / static_cast<double>(uncovered.size()),
-                         .views_for_quality = 0},
-                        part_of(progress_, "fill views", kFillShare, kFillShare));
+      const double share = static_cast<double>(uncovered.size()) /
+                           static_cast<double>(std::min(samples_.size(), kJudgedSamples));
+      if (share < kUncoveredShare) break;
+      // Where contours lie apart every face is far from points, and none across a gap can be told.
+      if (round == 0) has_narrow_gaps_ = share >= kNarrowShare && recipe_.gap == 0.0;
+      if (has_narrow_gaps_) drop_unsupported();
+      const ViewPlan plan = plan_views_of(
+          rasterizer_, samples_, uncovered, finer.pixel_size,
+          {.max_views = kCoverViewsPerRound,
+           .subset = kCoverSamples,
+           .max_slope_cosine = kCosine75Degrees,
+           .coverage = 1.0,
+           .min_gain = static_cast<double>(kMinNewPoints) / static_cast<double>(uncovered.size()),
+           .views_for_quality = 0},
+          part_of(progress_, "fill views", kFillShare, kFillShare));
       if (plan.directions.empty()) break;
       scan_into_holes(plan.directions, finer);
     }
     clock_.finish("uncovered");
   }
 
-  /// Faces across gaps hide what lies in them, and make handles. Where contours lie apart every
-  /// face is far from points.
+  /// Faces across gaps hide what lies in them, and make handles.
   void drop_unsupported() {
-    if (recipe_.gap > 0.0) return;
-    has_narrow_gaps_ = true;
     apply(DropUnsupported{.pixel_size = recipe_.pixel_size},
           part_of(progress_, "fill views", kFillShare, kFillShare));
   }

@@ -72,4 +72,18 @@ TEST_CASE("behind a loop lies what hangs together with it, and nothing of anothe
   }
 }
 
+TEST_CASE("a fill stands for a hole whose rim it cuts off a little, not for a finger", "[finish]") {
+  // Below the fill of a square, places that it closes over: a flat ground and a ridge in it.
+  const double h = 0.1;
+  const TriangleMesh fill{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+  const double ridge_height = GENERATE(1.0, 5.0);    // in h
+  const std::size_t ridge_places = GENERATE(3, 60);  // of a hundred
+  std::vector<Vec3> places;
+  for (std::size_t i = 0; i < 100; ++i) {
+    const double height = i < ridge_places ? ridge_height * h : 0.0;
+    places.emplace_back(0.005 * static_cast<double>(i), 0.5, height);
+  }
+  CHECK(stands_for(fill, places, h) == (ridge_height < 1.5 || ridge_places < 5));
+}
+
 }  // namespace rangezip
