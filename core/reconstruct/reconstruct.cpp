@@ -25,7 +25,7 @@ constexpr int kFillRounds = 2;
 constexpr int kFillViewsPerRound = 6;
 constexpr int kCoverRounds = 2;
 constexpr int kCoverViewsPerRound = 12;
-/// In h: the pixels of those views, since what is left out is narrower than what h resolves.
+/// In h: the pixels of those views of narrow gaps, which h does not resolve.
 constexpr double kCoverPixel = 0.5;
 constexpr double kMinNewPoints = 40;  ///< that a view must add: fewer are a few pixels
 /// Of the samples: of noise of a thousandth of the diagonal, 0.25 % are left out by mere chance.
@@ -177,11 +177,11 @@ class Run {
 
   /// The plan was made for a part of the points in small images: what it overlooked, the walls of
   /// drilled holes and of narrow gaps above all, is looked for again with the points that are left
-  /// and finer pixels. Not where the caller has said how many views there are to be.
+  /// and, of narrow gaps, finer pixels. Not where the caller has said how many views there are to
+  /// be.
   void scan_uncovered() {
     if (options_.views) return;
-    ScanRecipe finer = recipe_;
-    finer.pixel_size *= kCoverPixel;
+    ScanRecipe recipe = recipe_;
     for (int round = 0; round < kCoverRounds; ++round) {
       const std::vector<Vec3> uncovered = uncovered_samples();
       const double share = static_cast<double>(uncovered.size()) /
@@ -189,18 +189,21 @@ class Run {
       if (share < kUncoveredShare) break;
       // Where contours lie apart every face is far from points, and none across a gap can be told.
       if (round == 0) has_narrow_gaps_ = share >= kNarrowShare && recipe_.gap == 0.0;
-      if (has_narrow_gaps_) drop_unsupported();
-      const ViewPlan plan = plan_views_of(
-          rasterizer_, samples_, uncovered, finer.pixel_size,
-          {.max_views = kCoverViewsPerRound,
-           .subset = kCoverSamples,
-           .max_slope_cosine = kCosine75Degrees,
-           .coverage = 1.0,
-           .min_gain = static_cast<double>(kMinNewPoints) / static_cast<double>(uncovered.size()),
-           .views_for_quality = 0},
-          part_of(progress_, "fill views", kFillShare, kFillShare));
+      if (has_narrow_gaps_) {
+        recipe.pixel_size = kCoverPixel * recipe_.pixel_size;
+        drop_unsupported();
+      }
+      const ViewPlan plan =
+          plan_views_of(rasterizer_, samples_, uncovered, recipe.pixel_size,
+                        {.max_views = kCoverViewsPerRound,
+                         .subset = kCoverSamples,
+                         .max_slope_cosine = kCosine75Degrees,
+                         .coverage = 1.0,
+                         .min_gain = kMinNewPoints / static_cast<double>(uncovered.size()),
+                         .views_for_quality = 0},
+                        part_of(progress_, "fill views", kFillShare, kFillShare));
       if (plan.directions.empty()) break;
-      scan_into_holes(plan.directions, finer);
+      scan_into_holes(plan.directions, recipe);
     }
     clock_.finish("uncovered");
   }
