@@ -275,9 +275,18 @@ class Joiner {
 
 }  // namespace
 
-std::size_t join_loops(TriangleMesh& mesh, const PointGrid& cloud, double pixel_size) {
+JoinedLoops join_loops(TriangleMesh& mesh, const PointGrid& cloud, double pixel_size) {
   const std::vector<HoleFill> strips = Joiner(mesh, cloud, pixel_size).strips();
-  return append_verified(mesh, strips);
+  JoinedLoops result{.is_hindered = std::vector<std::uint8_t>(mesh.positions.size(), 0)};
+  const std::vector<std::size_t> hindered = append_verified(mesh, strips);
+  for (const std::size_t i : hindered) {
+    for (const Triangle& t : strips[i].triangles) {
+      for (const std::uint32_t v : t)
+        result.is_hindered[v] = 1;
+    }
+  }
+  result.pairs = strips.size() - hindered.size();
+  return result;
 }
 
 }  // namespace rangezip

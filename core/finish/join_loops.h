@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/finish/hole_filling.h"
@@ -8,6 +9,11 @@
 #include "core/mesh/triangle_mesh.h"
 
 namespace rangezip {
+
+struct JoinedLoops {
+  std::size_t pairs = 0;                  ///< that were joined
+  std::vector<std::uint8_t> is_hindered;  ///< of vertices: in a loop whose strip crosses something
+};
 
 /// Closes the gaps in walls of holes that lead through the object (own). Scans from both ends of
 /// such a hole each show a part of its wall, and two boundary loops are left with a gap between
@@ -23,12 +29,13 @@ namespace rangezip {
 ///   to no sheet beside it: then 0.9 h and -0.25 are enough;
 /// - where no point can tell, the strip goes on from the faces beside it with a mean cosine of 0.5,
 ///   and better than the fills.
-/// A loop is joined once; the narrowest strips come first. O(boundary), and for each pair of loops
+/// A loop is joined once; the narrowest strips come first. A strip that crosses the mesh or another
+/// one is not made, but its loops are named: they may be joined once faces around them are gone,
+/// and should not be filled before. O(boundary), and for each pair of loops
 /// what their fills cost. The mesh stays manifold and without self-intersections. In parallel.
 /// @param cloud may be empty: then faces alone tell
 /// @param pixel_size h, model units; positive
 /// @pre oriented, manifold, no self-intersections
-/// @return how many pairs were joined
-std::size_t join_loops(TriangleMesh& mesh, const PointGrid& cloud, double pixel_size);
+JoinedLoops join_loops(TriangleMesh& mesh, const PointGrid& cloud, double pixel_size);
 
 }  // namespace rangezip

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -26,6 +27,9 @@ constexpr double kSupport = 0.75;
 
 /// Holes that were left once stay as a rule: then these are enough for what is new.
 constexpr int kRoundsAgain = 3;
+
+/// Rounds in which loops that are to be joined, but are hindered, are kept open for the next one.
+constexpr int kRoundsToJoin = 3;
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
@@ -108,10 +112,25 @@ bool stands_for_removed(const TriangleMesh& mesh, const std::vector<Triangle>& r
   return places.empty() || stands_for(mesh_of_fill(mesh, fill), places, h);
 }
 
-FillOutcome fill(TriangleMesh& mesh, bool is_zipped, const RemovedFaces* removed,
-                 const PointGrid& cloud, const FinishOptions& options, FinishReport& report) {
+/// Parts the loops that hindered vertices are in from the others.
+std::vector<BoundaryLoop> hindered_among(std::vector<BoundaryLoop>& loops, const CornerTable& table,
+                                         const std::vector<std::uint8_t>& is_hindered) {
+  const auto first = std::stable_partition(loops.begin(), loops.end(), [&](const auto& loop) {
+    return is_hindered[table.vertex(loop.corners[0])] == 0;
+  });
+  std::vector<BoundaryLoop> hindered(std::make_move_iterator(first),
+                                     std::make_move_iterator(loops.end()));
+  loops.erase(first, loops.end());
+  return hindered;
+}
+
+/// @param is_hindered of vertices: their loops are not filled in this round
+FillOutcome fill(TriangleMesh& mesh, bool is_zipped, const std::vector<std::uint8_t>& is_hindered,
+                 const RemovedFaces* removed, const PointGrid& cloud, const FinishOptions& options,
+                 FinishReport& report) {
   const CornerTable table(mesh.triangles, mesh.positions.size());
   std::vector<BoundaryLoop> loops = boundary_loops(table);
+  const std::vector<BoundaryLoop> hindered = hindered_among(loops, table, is_hindered);
   const HoleChoiceOptions choice{options.pixel_size, options.max_hole_perimeter,
                                  options.narrow_width};
   std::vector<std::optional<FillShape>> shapes(loops.size());
@@ -141,10 +160,15 @@ FillOutcome fill(TriangleMesh& mesh, bool is_zipped, const RemovedFaces* removed
     for (const std::uint32_t v : vertices_of(requests[i].loop, table))
       outcome.unfilled[v] = 1;
   }
+  for (const BoundaryLoop& loop : hindered) {
+    for (const std::uint32_t v : vertices_of(loop, table))
+      outcome.unfilled[v] = 1;
+  }
   const bool any_zipped = std::any_of(requests.begin(), requests.end(), [](const FillRequest& r) {
     return r.shape == FillShape::zipped;
   });
-  outcome.is_done = fills.rejected.empty() && fills.zipped_pieces == 0 && !any_zipped;
+  outcome.is_done =
+      hindered.empty() && fills.rejected.empty() && fills.zipped_pieces == 0 && !any_zipped;
   return outcome;
 }
 
@@ -162,7 +186,8 @@ void put_back(TriangleMesh& mesh, const RemovedFaces& removed, const PointGrid& 
   if (count == 0) return;
   report.faces_put_back += count;
   clean(mesh, options, report);
-  fill(mesh, true, nullptr, cloud, options, report);
+  const std::vector<std::uint8_t> none_hindered(mesh.positions.size(), 0);
+  fill(mesh, true, none_hindered, nullptr, cloud, options, report);
 }
 
 }  // namespace
@@ -178,10 +203,12 @@ void repair(TriangleMesh& mesh, const Pairs& crossing, const PointGrid& cloud,
     progress.check_stop();
     clean(mesh, options, report);
     bridge(mesh, options, report);
-    report.joined_loops += join_loops(mesh, cloud, options.pixel_size);
+    JoinedLoops joined = join_loops(mesh, cloud, options.pixel_size);
+    report.joined_loops += joined.pairs;
+    if (round >= kRoundsToJoin) std::ranges::fill(joined.is_hindered, 0);
     const bool is_zipped = round > 0;
-    const FillOutcome outcome =
-        fill(mesh, is_zipped, removed ? &*removed : nullptr, cloud, options, report);
+    const FillOutcome outcome = fill(mesh, is_zipped, joined.is_hindered,
+                                     removed ? &*removed : nullptr, cloud, options, report);
     if (outcome.is_done || round + 1 == rounds) break;
     if (!removed && options.narrow_gaps) removed.emplace(mesh);
     widen(mesh, outcome.unfilled);

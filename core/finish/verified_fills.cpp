@@ -157,14 +157,19 @@ VerifiedFills fill_verified(TriangleMesh& mesh, const CornerTable& table,
   return Filler(mesh, table, requests, options).run();
 }
 
-std::size_t append_verified(TriangleMesh& mesh, const std::vector<HoleFill>& fills) {
-  if (fills.empty()) return 0;
+std::vector<std::size_t> append_verified(TriangleMesh& mesh, const std::vector<HoleFill>& fills) {
+  if (fills.empty()) return {};
   const std::vector<std::uint8_t> fails = failing_fills(mesh, fills);
   const std::size_t base = mesh.positions.size();
+  std::vector<std::size_t> left_out;
   for (std::size_t i = 0; i < fills.size(); ++i) {
-    if (fails[i] == 0) append_fill(mesh, fills[i], base);
+    if (fails[i] != 0) {
+      left_out.push_back(i);
+    } else {
+      append_fill(mesh, fills[i], base);
+    }
   }
-  return static_cast<std::size_t>(std::count(fails.begin(), fails.end(), 0));
+  return left_out;
 }
 
 }  // namespace rangezip

@@ -41,7 +41,7 @@ VerifiedFills fill_verified(TriangleMesh& mesh, const CornerTable& table,
                             const VerifiedFillOptions& options);
 
 /// Appends the fills whose faces cross neither the mesh nor each other; of two that cross, the
-/// earlier one stays. @return how many were appended
-std::size_t append_verified(TriangleMesh& mesh, const std::vector<HoleFill>& fills);
+/// earlier one stays. @return indices of those that were not appended
+std::vector<std::size_t> append_verified(TriangleMesh& mesh, const std::vector<HoleFill>& fills);
 
 }  // namespace rangezip

@@ -76,8 +76,8 @@ TEST_CASE("a fill stands for a hole whose rim it cuts off a little, not for a fi
   // Below the fill of a square, places that it closes over: a flat ground and a ridge in it.
   const double h = 0.1;
   const TriangleMesh fill{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
-  const double ridge_height = GENERATE(1.0, 5.0);    // in h
-  const std::size_t ridge_places = GENERATE(3, 60);  // of a hundred
+  const double ridge_height = GENERATE(1.0, 5.0);      // in h
+  const std::size_t ridge_places = GENERATE(3U, 60U);  // of a hundred
   std::vector<Vec3> places;
   for (std::size_t i = 0; i < 100; ++i) {
     const double height = i < ridge_places ? ridge_height * h : 0.0;
