@@ -69,6 +69,13 @@ struct Plane {
   return glm::cross(b - a, c - a);
 }
 
+/// Unit normal of a triangle, counter-clockwise; zero where it has no area.
+[[nodiscard]] inline Vec3 unit_normal(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
+  const Vec3 area = area_vector(a, b, c);
+  const double length = glm::length(area);
+  return length > 0.0 ? area / length : Vec3{0.0};
+}
+
 /// `vector` at unit length; (0, 0, 1) for a zero or non-finite one.
 [[nodiscard]] inline Vec3 unit_or_z(const Vec3& vector) noexcept {
   const double length = glm::length(vector);

@@ -61,12 +61,7 @@ class Bridger {
     std::replace(joined_.begin(), joined_.end(), b, a);
   }
 
-  [[nodiscard]] Vec3 unit_normal(const Triangle& t) const {
-    const Vec3 area =
-        area_vector(mesh_.positions[t[0]], mesh_.positions[t[1]], mesh_.positions[t[2]]);
-    const double length = glm::length(area);
-    return length > 0.0 ? area / length : Vec3{0.0};
-  }
+  [[nodiscard]] Vec3 normal_of(const Triangle& t) const { return unit_normal(mesh_.positions, t); }
 
   /// Tries the pairs of two loops, the nearest first.
   bool bridge_one(std::span<const LoopNeighbors> pairs) {
@@ -80,10 +75,10 @@ class Bridger {
       const std::uint32_t a = table_.head(edge_a), a2 = table_.vertex(edge_a);
       const std::uint32_t b2 = table_.head(edge_b), b = table_.vertex(edge_b);
       const Triangle first{a, a2, b}, second{a2, b2, b};
-      const Vec3 n1 = unit_normal(first), n2 = unit_normal(second);
+      const Vec3 n1 = normal_of(first), n2 = normal_of(second);
       if (glm::dot(n1, n2) < kMinCosineInside) continue;
-      if (glm::dot(n1, unit_normal(table_.triangle(edge_a / 3))) < kMinCosineBeside) continue;
-      if (glm::dot(n2, unit_normal(table_.triangle(edge_b / 3))) < kMinCosineBeside) continue;
+      if (glm::dot(n1, normal_of(table_.triangle(edge_a / 3))) < kMinCosineBeside) continue;
+      if (glm::dot(n2, normal_of(table_.triangle(edge_b / 3))) < kMinCosineBeside) continue;
       if (glm::length(mesh_.positions[a2] - mesh_.positions[b2]) > kMaxBridgeLength * h_) continue;
       mesh_.triangles.push_back(first);
       mesh_.triangles.push_back(second);

@@ -46,12 +46,6 @@ struct LoopGeometry {
   Vec3 beside{0.0};  ///< mean unit normal of the faces along the loop
 };
 
-Vec3 unit_normal(const std::vector<Vec3>& positions, const Triangle& t) {
-  const Vec3 area = area_vector(positions[t[0]], positions[t[1]], positions[t[2]]);
-  const double length = glm::length(area);
-  return length > 0.0 ? area / length : Vec3{0.0};
-}
-
 LoopGeometry geometry_of(const std::vector<Vec3>& positions, const CornerTable& table,
                          const BoundaryLoop& loop) {
   LoopGeometry geometry;

@@ -84,19 +84,14 @@ HoleFill fill_loop(const std::vector<Vec3>& positions, const CornerTable& table,
 
 double continuation_of(const std::vector<Vec3>& positions, const CornerTable& table,
                        std::span<const std::uint32_t> corners, const std::vector<Triangle>& fill) {
-  const auto normal_of = [&](const Triangle& t) {
-    const Vec3 area = area_vector(positions[t[0]], positions[t[1]], positions[t[2]]);
-    const double length = glm::length(area);
-    return length > 0.0 ? area / length : Vec3{0.0};
-  };
   std::map<std::pair<std::uint32_t, std::uint32_t>, Vec3> beside;
   for (const std::uint32_t c : corners)
-    beside[{table.head(c), table.vertex(c)}] = normal_of(table.triangle(c / 3));
+    beside[{table.head(c), table.vertex(c)}] = unit_normal(positions, table.triangle(c / 3));
   double sum = 0.0;
   for (const Triangle& t : fill) {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto found = beside.find({t[k], t[(k + 1) % 3]});
-      if (found != beside.end()) sum += glm::dot(found->second, normal_of(t));
+      if (found != beside.end()) sum += glm::dot(found->second, unit_normal(positions, t));
     }
   }
   return sum / static_cast<double>(corners.size());

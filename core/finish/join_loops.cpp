@@ -42,8 +42,8 @@ constexpr double kMaxCovered = 0.35;
 constexpr double kMinShown = 0.3;
 constexpr double kMinShownWide = -0.25;
 constexpr double kMinContinued = 0.5;
-/// Seams that are tried for a strip, each a few neighbours farther than the last.
-constexpr int kSeams = 12;
+/// Neighbours that are tried as the seam of a strip, at least, the nearest first.
+constexpr std::size_t kSeams = 12;
 /// Longer loops are borders rather than rims of holes, and their fills take long.
 constexpr std::size_t kMaxEdges = 300;
 
@@ -58,17 +58,21 @@ struct Strip {
   bool is_shown = false;      ///< points can tell: most edges are long
 };
 
-/// The vertices of a loop from one place once around, that one twice.
-void append_around(const std::vector<std::uint32_t>& vertices, std::uint32_t place,
-                   std::vector<std::uint32_t>& polygon) {
-  for (std::size_t i = 0; i <= vertices.size(); ++i)
-    polygon.push_back(vertices[(place + i) % vertices.size()]);
-}
+/// A loop as one side of a strip, in filling order.
+struct Side {
+  std::vector<std::uint32_t> vertices;
+  std::vector<Vec3> edge_normals;  ///< of the faces across
+};
 
-void append_around(const std::vector<Vec3>& normals, std::uint32_t place,
+/// A loop from one place once around, that one twice.
+void append_around(const Side& side, std::uint32_t place, std::vector<std::uint32_t>& polygon,
                    std::vector<Vec3>& edge_normals) {
-  for (std::size_t i = 0; i < normals.size(); ++i)
-    edge_normals.push_back(normals[(place + i) % normals.size()]);
+  const std::size_t n = side.vertices.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    polygon.push_back(side.vertices[(place + i) % n]);
+    edge_normals.push_back(side.edge_normals[(place + i) % n]);
+  }
+  polygon.push_back(side.vertices[place]);
   edge_normals.emplace_back(0.0);  // of the seam
 }
 
@@ -170,11 +174,12 @@ class Joiner {
 
   /// The strip between two loops, if there is one without long edges.
   [[nodiscard]] std::optional<Strip> strip_between(std::span<const LoopNeighbors> pairs) const {
+    const Side a = side_of(pairs.front().loop_a), b = side_of(pairs.front().loop_b);
     const std::size_t step = std::max<std::size_t>(1, pairs.size() / kSeams);
     for (std::size_t i = 0; i < pairs.size(); i += step) {
       Strip strip{.loop_a = pairs[i].loop_a,
                   .loop_b = pairs[i].loop_b,
-                  .fill = {triangulate(pairs[i]), {}}};
+                  .fill = {triangulate(a, b, pairs[i]), {}}};
       if (strip.fill.triangles.empty()) continue;
       measure(strip);
       return strip;
@@ -182,27 +187,29 @@ class Joiner {
     return std::nullopt;
   }
 
+  [[nodiscard]] Side side_of(std::uint32_t loop) const {
+    return {vertices_of(loops_[loop], table_),
+            shape_of(loops_[loop], table_, mesh_.positions).edge_normals};
+  }
+
   /// Around one loop, over the seam, around the other and back: a polygon that has every vertex
   /// once, and the ends of the seam twice. Empty if there is no manifold triangulation.
-  [[nodiscard]] std::vector<Triangle> triangulate(const LoopNeighbors& seam) const {
+  [[nodiscard]] std::vector<Triangle> triangulate(const Side& a, const Side& b,
+                                                  const LoopNeighbors& seam) const {
     std::vector<std::uint32_t> polygon;
     LoopShape shape;
-    for (const auto& [loop, place] :
-         {std::pair(seam.loop_a, seam.place_a), std::pair(seam.loop_b, seam.place_b)}) {
-      append_around(vertices_of(loops_[loop], table_), place, polygon);
-      append_around(shape_of(loops_[loop], table_, mesh_.positions).edge_normals, place,
-                    shape.edge_normals);
-    }
+    append_around(a, seam.place_a, polygon, shape.edge_normals);
+    append_around(b, seam.place_b, polygon, shape.edge_normals);
     for (const std::uint32_t v : polygon)
       shape.points.push_back(mesh_.positions[v]);
-    const Edge seam_edge = std::minmax(polygon.front(), polygon.back());
+    const Edge seam_edge = std::minmax(a.vertices[seam.place_a], b.vertices[seam.place_b]);
+    if (table_.are_neighbors(seam_edge.first, seam_edge.second)) return {};
     shape.is_forbidden = [&](std::uint32_t i, std::uint32_t k) {
       const std::uint32_t v = polygon[i], w = polygon[k];
       return v == w || Edge(std::minmax(v, w)) == seam_edge ||
              glm::length(shape.points[k] - shape.points[i]) > kMaxEdge * h_ ||
              table_.are_neighbors(v, w);
     };
-    if (table_.are_neighbors(seam_edge.first, seam_edge.second)) return {};
     std::vector<Triangle> triangles = triangulate_loop(shape);
     for (Triangle& t : triangles) {
       for (std::uint32_t& v : t)

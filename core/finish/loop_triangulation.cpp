@@ -8,12 +8,6 @@
 namespace rangezip {
 namespace {
 
-Vec3 normal_of_face(const std::vector<Vec3>& positions, const Triangle& t) {
-  const Vec3 area = area_vector(positions[t[0]], positions[t[1]], positions[t[2]]);
-  const double length = glm::length(area);
-  return length > 0.0 ? area / length : Vec3{0.0};
-}
-
 /// The loop's vertices and which of them the mesh already joins.
 class LoopEdges {
  public:
@@ -196,7 +190,7 @@ LoopShape shape_of(const BoundaryLoop& loop, const CornerTable& table,
   for (const std::uint32_t v : vertices)
     shape.points.push_back(positions[v]);
   for (const std::uint32_t c : loop.corners) {
-    shape.edge_normals.push_back(normal_of_face(positions, table.triangle(c / 3)));
+    shape.edge_normals.push_back(unit_normal(positions, table.triangle(c / 3)));
   }
   shape.is_forbidden = [edges = LoopEdges(table, vertices)](std::uint32_t i, std::uint32_t k) {
     return edges.are_joined(i, k);

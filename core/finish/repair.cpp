@@ -113,8 +113,10 @@ bool stands_for_removed(const TriangleMesh& mesh, const std::vector<Triangle>& r
 }
 
 /// Parts the loops that hindered vertices are in from the others.
+/// @param is_hindered of vertices; empty: none
 std::vector<BoundaryLoop> hindered_among(std::vector<BoundaryLoop>& loops, const CornerTable& table,
                                          const std::vector<std::uint8_t>& is_hindered) {
+  if (is_hindered.empty()) return {};
   const auto first = std::stable_partition(loops.begin(), loops.end(), [&](const auto& loop) {
     return is_hindered[table.vertex(loop.corners[0])] == 0;
   });
@@ -124,7 +126,7 @@ std::vector<BoundaryLoop> hindered_among(std::vector<BoundaryLoop>& loops, const
   return hindered;
 }
 
-/// @param is_hindered of vertices: their loops are not filled in this round
+/// @param is_hindered of vertices: their loops are not filled in this round; empty: none
 FillOutcome fill(TriangleMesh& mesh, bool is_zipped, const std::vector<std::uint8_t>& is_hindered,
                  const RemovedFaces* removed, const PointGrid& cloud, const FinishOptions& options,
                  FinishReport& report) {
@@ -186,8 +188,7 @@ void put_back(TriangleMesh& mesh, const RemovedFaces& removed, const PointGrid& 
   if (count == 0) return;
   report.faces_put_back += count;
   clean(mesh, options, report);
-  const std::vector<std::uint8_t> none_hindered(mesh.positions.size(), 0);
-  fill(mesh, true, none_hindered, nullptr, cloud, options, report);
+  fill(mesh, true, {}, nullptr, cloud, options, report);
 }
 
 }  // namespace
@@ -205,7 +206,7 @@ void repair(TriangleMesh& mesh, const Pairs& crossing, const PointGrid& cloud,
     bridge(mesh, options, report);
     JoinedLoops joined = join_loops(mesh, cloud, options.pixel_size);
     report.joined_loops += joined.pairs;
-    if (round >= kRoundsToJoin) std::ranges::fill(joined.is_hindered, 0);
+    if (round >= kRoundsToJoin) joined.is_hindered.clear();
     const bool is_zipped = round > 0;
     const FillOutcome outcome = fill(mesh, is_zipped, joined.is_hindered,
                                      removed ? &*removed : nullptr, cloud, options, report);

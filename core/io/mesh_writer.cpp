@@ -109,12 +109,6 @@ void write_off(MeshOutput& out, const TriangleMesh& mesh, const MeshFileOptions&
   }
 }
 
-Vec3 unit_normal(const std::array<Vec3, 3>& corners) {
-  const Vec3 area = area_vector(corners[0], corners[1], corners[2]);
-  const double length = glm::length(area);
-  return length > 0.0 ? area / length : Vec3{0.0};
-}
-
 std::array<Vec3, 3> corners_of(const TriangleMesh& mesh, const Triangle& triangle) {
   return {mesh.positions[triangle[0]], mesh.positions[triangle[1]], mesh.positions[triangle[2]]};
 }
@@ -123,7 +117,9 @@ void write_stl_text(MeshOutput& out, const TriangleMesh& mesh) {
   out.text("solid rangezip\n");
   for (const Triangle& triangle : mesh.triangles) {
     const std::array<Vec3, 3> corners = corners_of(mesh, triangle);
-    out.text("facet normal ").numbers(unit_normal(corners)).text("\nouter loop\n");
+    out.text("facet normal ")
+        .numbers(unit_normal(corners[0], corners[1], corners[2]))
+        .text("\nouter loop\n");
     for (const Vec3& p : corners)
       out.text("vertex ").numbers(p).text("\n");
     out.text("endloop\nendfacet\n");
@@ -142,7 +138,7 @@ void write_stl_binary(MeshOutput& out, const TriangleMesh& mesh) {
   };
   for (const Triangle& triangle : mesh.triangles) {
     const std::array<Vec3, 3> corners = corners_of(mesh, triangle);
-    put(unit_normal(corners));
+    put(unit_normal(corners[0], corners[1], corners[2]));
     for (const Vec3& p : corners)
       put(p);
     out.bytes(std::uint16_t{0});

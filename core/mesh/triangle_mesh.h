@@ -34,6 +34,11 @@ struct TriangleMesh {
   friend bool operator==(const TriangleMesh&, const TriangleMesh&) = default;
 };
 
+/// Unit normal of a face, counter-clockwise; zero where it has no area.
+[[nodiscard]] inline Vec3 unit_normal(const std::vector<Vec3>& positions, const Triangle& face) {
+  return unit_normal(positions[face[0]], positions[face[1]], positions[face[2]]);
+}
+
 /// Box around all positions.
 [[nodiscard]] Box bounds_of(const TriangleMesh& mesh);
 

@@ -57,8 +57,7 @@ class Attempt {
 
   void join();
   void roll_back_crossings();
-  [[nodiscard]] bool reaches_rim() const;
-  [[nodiscard]] bool is_manifold() const;
+  [[nodiscard]] std::vector<std::uint8_t> changed_vertices() const;
   [[nodiscard]] std::vector<Pixel> lost_pixels();
 
   [[nodiscard]] const TriangleMesh& mesh() const { return joint_.mesh; }
@@ -68,7 +67,6 @@ class Attempt {
 
  private:
   void clean();
-  [[nodiscard]] std::vector<std::uint8_t> changed_vertices() const;
   [[nodiscard]] std::vector<FaceOrigin> origins_of(std::span<const std::uint32_t> made) const;
   [[nodiscard]] std::vector<std::uint32_t> faces_as_sampled(
       std::span<const FaceOrigin> origins) const;
@@ -169,7 +167,7 @@ void Attempt::roll_back_crossings() {
   changes_ = find_face_changes(part_.mesh, joint_.mesh);
 }
 
-/// Flags of those where faces came or went.
+/// Flags of those where faces came or went; elsewhere nothing has changed.
 std::vector<std::uint8_t> Attempt::changed_vertices() const {
   std::vector<std::uint8_t> changed(joint_.mesh.positions.size(), 0);
   for (const std::uint32_t f : changes_.made) {
@@ -181,20 +179,6 @@ std::vector<std::uint8_t> Attempt::changed_vertices() const {
       changed[v] = 1;
   }
   return changed;
-}
-
-/// Then not all faces around what has changed are known.
-bool Attempt::reaches_rim() const {
-  const std::vector<std::uint8_t> changed = changed_vertices();
-  for (std::size_t v = 0; v < part_.is_rim.size(); ++v) {
-    if ((part_.is_rim[v] & changed[v]) != 0) return true;
-  }
-  return false;
-}
-
-/// Elsewhere nothing has changed.
-bool Attempt::is_manifold() const {
-  return is_manifold_at(joint_.mesh, changed_vertices());
 }
 
 std::vector<Pixel> Attempt::lost_pixels() {
@@ -239,6 +223,14 @@ std::size_t grid_triangle_count(const Patch& patch) {
   return count;
 }
 
+/// Whether faces around what has changed are outside of the part.
+bool reaches_rim(const MeshPart& part, const std::vector<std::uint8_t>& is_changed) {
+  for (std::size_t v = 0; v < part.is_rim.size(); ++v) {
+    if ((part.is_rim[v] & is_changed[v]) != 0) return true;
+  }
+  return false;
+}
+
 /// What was done to the mesh.
 struct Stitched {
   StitchReport report;
@@ -256,10 +248,11 @@ std::optional<Stitched> stitch_into(TriangleMesh& mesh, const MeshPart& part, co
     Attempt attempt(part, image, PatchScan(scan, patch, part.face_in_whole), options);
     attempt.join();
     attempt.roll_back_crossings();
-    if (attempt.reaches_rim()) return std::nullopt;
+    const std::vector<std::uint8_t> is_changed = attempt.changed_vertices();
+    if (reaches_rim(part, is_changed)) return std::nullopt;
     bool is_manifold = false;
     std::vector<Pixel> lost;
-    run_side_by_side([&] { is_manifold = attempt.is_manifold(); },
+    run_side_by_side([&] { is_manifold = is_manifold_at(attempt.mesh(), is_changed); },
                      [&] { lost = attempt.lost_pixels(); });
     if (!is_manifold) break;
     StitchReport report = attempt.report();
