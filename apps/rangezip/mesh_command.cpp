@@ -11,6 +11,7 @@
 #include "apps/rangezip/backend.h"
 #include "apps/rangezip/commands.h"
 #include "apps/rangezip/exit_code.h"
+#include "apps/rangezip/handle_changes.h"
 #include "apps/rangezip/inputs.h"
 #include "apps/rangezip/outputs.h"
 #include "apps/rangezip/referee.h"
@@ -88,6 +89,8 @@ void print_summary(Console& console, const MeshOptions& options, const Scene& sc
                             report.views.size(), report.views.size() - report.planned_views,
                             report.pixel_size));
   console.print(fmt::format("mesh      {}", topology_text(report.mesh)));
+  const std::string handles = handles_text(report);
+  if (!handles.empty()) console.print(fmt::format("handles   {}", handles));
   print_coverage(console, report.coverage);
   console.print(fmt::format("written   {} ({:.1f} s, {:.1f} s of processor time)",
                             options.output.string(), total.seconds, total.cpu_seconds));

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/rangezip/handle_changes.h"
 #include "core/io/atomic_file.h"
 
 namespace rangezip::app {
@@ -66,12 +67,11 @@ Json json_of(const FinishReport& finish) {
           {"dropped_faces", finish.dropped_faces}};
 }
 
-/// The views in order; the commands after them are the finish.
 Json views_of(const ReconstructReport& report) {
   Json views = Json::array();
   for (std::size_t i = 0; i < report.views.size(); ++i) {
     const Vec3& direction = report.views[i];
-    const CommandReport& command = report.commands.at(i);
+    const CommandReport& command = report.commands.at(report.view_commands.at(i));
     views.push_back({{"toward_viewer", {direction.x, direction.y, direction.z}},
                      {"kind", i < report.planned_views ? "planned" : "fill"},
                      {"seconds", command.seconds},
@@ -96,6 +96,14 @@ Json mesh_of(const ReconstructReport& report) {
           {"misoriented_edges", mesh.misoriented_edges},
           {"degenerate_faces", mesh.degenerate_faces},
           {"self_intersections", report.self_intersections}};
+}
+
+Json handles_of(const ReconstructReport& report) {
+  Json changes = Json::array();
+  for (const HandleChange& change : handle_changes(report))
+    changes.push_back({{"by", change.by}, {"change", change.handles}});
+  const std::size_t count = report.commands.empty() ? 0 : report.commands.back().handles;
+  return {{"count", count}, {"changes", changes}};
 }
 
 Json json_of(const std::vector<Place>& places) {
@@ -151,14 +159,15 @@ Json json_of(const MeshRunReport& run) {
   json["pixel_size"] = report.pixel_size;
   json["planned_coverage"] = report.planned_coverage;
   json["views"] = views_of(report);
-  if (report.commands.size() > report.views.size()) {
-    json["finish"] = json_of(report.commands.back().finish);
+  if (report.finish_command) {
+    json["finish"] = json_of(report.commands.at(*report.finish_command).finish);
   }
   json["coverage"] = report.coverage.share;
   json["uncovered"] = uncovered_of(report.coverage);
   json["unsupported"] = {{"area", report.coverage.unsupported_area},
                          {"places", json_of(report.coverage.unsupported)}};
   json["mesh"] = mesh_of(report);
+  json["handles"] = handles_of(report);
   json["dropped"] = dropped_of(report);
   json["stages"] = stages_of(run.stages);
   json["peak_memory_bytes"] = peak_memory_bytes();

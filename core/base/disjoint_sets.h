@@ -25,9 +25,11 @@ class DisjointSets {
       i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  void join(std::uint32_t i, std::uint32_t j) noexcept {
+  /// @return whether the two were apart until now
+  bool join(std::uint32_t i, std::uint32_t j) noexcept {
     const auto [low, high] = std::minmax({find(i), find(j)});
     parent_[high] = low;
+    return low != high;
   }
 
  private:

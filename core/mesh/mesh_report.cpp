@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/disjoint_sets.h"
 #include "core/base/error.h"
 #include "core/mesh/edge_map.h"
 
@@ -27,30 +28,6 @@ bool has_no_area(const TriangleMesh& mesh, const Triangle& t) {
   const Vec3 area = area_vector(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
   return !(glm::dot(area, area) > 0.0);
 }
-
-/// Disjoint sets of numbers.
-class UnionFind {
- public:
-  explicit UnionFind(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-  }
-  std::uint32_t find(std::uint32_t x) {
-    while (parent_[x] != x)
-      x = parent_[x] = parent_[parent_[x]];
-    return x;
-  }
-  /// Whether the two were apart until now.
-  bool join(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    if (a == b) return false;
-    parent_[std::max(a, b)] = std::min(a, b);
-    return true;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// The half-edges of all faces without a repeated corner, in order of their lower vertex, then
 /// their higher one: those of one edge stand side by side.
@@ -122,8 +99,8 @@ struct Pieces {
         fans(3 * mesh.triangles.size()) {}
 
   std::vector<std::uint32_t> fans_of;   ///< fans of faces per vertex, at first one per corner
-  UnionFind components;                 ///< of faces
-  UnionFind fans;                       ///< of corners
+  DisjointSets components;                 ///< of faces
+  DisjointSets fans;                       ///< of corners
   std::vector<std::uint32_t> boundary;  ///< corners where an edge of one face starts
 };
 
@@ -178,7 +155,7 @@ std::size_t count_if_more(std::span<const std::uint32_t> counts, std::uint32_t t
 
 /// Loops are counted as the connected pieces of the boundary, where two edges meet only inside
 /// one fan of faces. @param fans corners joined over edges; used up
-void count_loops(const TriangleMesh& mesh, std::span<const std::uint32_t> boundary, UnionFind& fans,
+void count_loops(const TriangleMesh& mesh, std::span<const std::uint32_t> boundary, DisjointSets& fans,
                  MeshReport& report) {
   for (const std::uint32_t corner : boundary)
     fans.join(corner, next_corner(corner));

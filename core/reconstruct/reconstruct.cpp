@@ -5,6 +5,7 @@
 #include <ctime>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
@@ -118,6 +119,9 @@ class Run {
 
  private:
   void apply(Command command, const Progress& progress) {
+    const std::size_t number = result_.commands.size();
+    if (std::holds_alternative<AddScan>(command)) result_.report.view_commands.push_back(number);
+    if (std::holds_alternative<FinishMesh>(command)) result_.report.finish_command = number;
     result_.report.commands.push_back(session_.apply(command, rasterizer_, progress));
     result_.commands.push_back(std::move(command));
   }

@@ -43,7 +43,9 @@ struct ReconstructReport {
   double pixel_size = 0.0;
   std::vector<Vec3> views;  ///< toward the viewer, planned ones first
   std::size_t planned_views = 0;
-  double planned_coverage = 0.0;  ///< share of the points that the planned views see
+  double planned_coverage = 0.0;           ///< share of the points that the planned views see
+  std::vector<std::size_t> view_commands;  ///< per view: where among the commands its scan is
+  std::optional<std::size_t> finish_command;
   std::vector<CommandReport> commands;
   std::vector<StageTime> stages;
   CoverageReport coverage;

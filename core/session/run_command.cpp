@@ -9,6 +9,7 @@
 #include "core/finish/hole_filling.h"
 #include "core/finish/laplacian_smooth.h"
 #include "core/finish/unsupported_faces.h"
+#include "core/mesh/handles.h"
 #include "core/plan/spacing.h"
 #include "core/session/erase_region.h"
 #include "core/view/view.h"
@@ -130,6 +131,7 @@ CommandResult run_command(const Command& command, const Scene& scene, TriangleMe
   CommandRun run(scene, std::move(mesh), votes, rasterizer, progress);
   std::visit(run, command);
   CommandResult result = run.take();
+  result.report.handles = count_handles(result.mesh);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   result.report.seconds = seconds.count();
   return result;

@@ -66,6 +66,28 @@ TEST_CASE("mesh makes one closed sphere of a cloud, and says so", "[apps]") {
   CHECK(seconds > 0.0);
 }
 
+TEST_CASE("mesh says which step made a handle", "[apps]") {
+  const TemporaryFolder folder;
+  std::ofstream cloud(folder / "torus.xyz");
+  for (const Vec3f& p : shapes::sampled(shapes::torus(), 20'000).positions)
+    cloud << p.x << ' ' << p.y << ' ' << p.z << '\n';
+  cloud.close();
+  const RunResult result =
+      run({"mesh", folder / "torus.xyz", "-o", folder / "out.ply", "--report", folder / "r.json"});
+  CAPTURE(result.err);
+  REQUIRE(result.code == 0);
+  const Json report = Json::parse(load(folder / "r.json"));
+  CHECK(report["mesh"]["euler_number"] == 0);
+  CHECK(report["handles"]["count"] == 1);
+  int sum = 0;
+  for (const Json& change : report["handles"]["changes"])
+    sum += change["change"].get<int>();
+  CHECK(sum == 1);
+  const std::string first = report["handles"]["changes"][0]["by"];
+  CHECK_THAT(first, Catch::StartsWith("view "));
+  CHECK_THAT(result.out, Contains("handles   1: " + first + " +"));
+}
+
 TEST_CASE("mesh reports with its place what of the cloud no view reaches", "[apps]") {
   const TemporaryFolder folder;
   store_sphere(folder / "sphere.ply");
