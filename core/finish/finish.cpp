@@ -173,26 +173,40 @@ void remesh_on_cloud(TriangleMesh& mesh, const PointGrid& cloud, const PointGrid
   remove_unused_vertices(mesh);
 }
 
+bool is_wide_window(const FitWindow& fit, double pixel_size) {
+  return fit.window.radius > kThinnedFrom * pixel_size;
+}
+
+/// How fits to the surface are to be made, as wide at each place as noise and bending ask for.
+FitWindow window_for(const TriangleMesh& mesh, const PointGrid& cloud,
+                     const FinishOptions& options) {
+  FitWindow fit = choose_fit_window(mesh, cloud, options.pixel_size);
+  fit.window.widest = kWidestPerGap * options.gap;
+  const bool is_even = options.gap == 0.0;  // contours tell nothing of what lies between them
+  if (is_wide_window(fit, options.pixel_size) && is_even)
+    fit.radii = local_fit_radii(mesh, cloud, fit.window, options.pixel_size);
+  return fit;
+}
+
 /// Better triangles, closer to the cloud, of a mesh that is closed and clean.
 void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
              FinishReport& report, const Progress& progress) {
   const double h = options.pixel_size;
   const bool is_coarsened = is_to_coarsen(mesh, options);
-  FitWindow fit = choose_fit_window(mesh, cloud, h);
-  fit.window.widest = kWidestPerGap * options.gap;
+  const FitWindow fit = window_for(mesh, cloud, options);
   report.noise = fit.noise;
   report.fit_radius = fit.window.radius;
-  const bool is_wide = fit.window.radius > kThinnedFrom * h;
+  const bool is_wide = is_wide_window(fit, h);
   const PointGrid thinned = is_wide ? cloud.thinned(kThinnedParts) : PointGrid({}, Box{}, h);
   const PointGrid& surface = is_wide ? thinned : cloud;
   remesh_on_cloud(mesh, cloud, surface,
                   {.pixel_size = h,
-                   .window = fit.window,
+                   .fit = fit,
                    .triangles = is_coarsened ? 0 : options.triangles,
                    .rounds = options.relaxations},
                   report, progress);
   const bool is_dense = !is_coarsened && are_points_dense(mesh, cloud, fit.noise, h);
-  if (!is_dense) fit_vertices(mesh, surface, fit.window, progress);
+  if (!is_dense) fit_vertices(mesh, surface, fit, progress);
   separate(mesh, cloud, options, report, progress);
   if (options.snap_features) snap(mesh, cloud, fit, options, report, progress);
   mend_slivers(mesh, cloud, options, report, progress);

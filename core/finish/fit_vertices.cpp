@@ -31,10 +31,10 @@ using CornerValues = std::array<double, 3>;
 
 class Fitter {
  public:
-  Fitter(TriangleMesh& mesh, const PointGrid& surface, const SurfaceWindow& window)
+  Fitter(TriangleMesh& mesh, const PointGrid& surface, const FitWindow& fit)
       : mesh_(mesh),
         surface_(surface),
-        window_(window),
+        fit_(fit),
         table_(mesh.triangles, mesh.positions.size()),
         normals_(mesh.positions.size()),
         areas_(mesh.triangles.size()) {
@@ -89,7 +89,7 @@ class Fitter {
         normal += w[k] * normals_[t[k]];
       }
       normal = unit_or_z(normal);
-      const SurfaceFit fit = fit_surface(surface_, place, normal, window_);
+      const SurfaceFit fit = fit_surface(surface_, place, normal, fit_.at(place));
       if (!fit.is_found || glm::dot(fit.normal, normal) < kMinCosine) continue;
       for (std::size_t k = 0; k < 3; ++k)
         sums[k] += areas_[face] / 3.0 * w[k] * fit.height;
@@ -119,7 +119,7 @@ class Fitter {
 
   TriangleMesh& mesh_;
   const PointGrid& surface_;
-  SurfaceWindow window_;
+  const FitWindow& fit_;
   CornerTable table_;
   std::vector<Vec3> normals_;
   std::vector<double> areas_;  ///< of the faces
@@ -127,11 +127,11 @@ class Fitter {
 
 }  // namespace
 
-void fit_vertices(TriangleMesh& mesh, const PointGrid& surface, const SurfaceWindow& window,
+void fit_vertices(TriangleMesh& mesh, const PointGrid& surface, const FitWindow& fit,
                   const Progress& progress) {
   if (surface.empty()) return;
   progress.check_stop();
-  Fitter(mesh, surface, window).run();
+  Fitter(mesh, surface, fit).run();
 }
 
 }  // namespace rangezip

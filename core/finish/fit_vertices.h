@@ -1,8 +1,8 @@
 #pragma once
 
 #include "core/base/progress.h"
+#include "core/finish/fit_window.h"
 #include "core/finish/point_grid.h"
-#include "core/finish/surface_fit.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace rangezip {
@@ -16,7 +16,7 @@ namespace rangezip {
 /// Cost: three fits a triangle, in parallel.
 /// @param surface the cloud, or PointGrid::thinned() where the window is wide
 /// @pre oriented, manifold (core/finish/clean_topology.h)
-void fit_vertices(TriangleMesh& mesh, const PointGrid& surface, const SurfaceWindow& window,
+void fit_vertices(TriangleMesh& mesh, const PointGrid& surface, const FitWindow& fit,
                   const Progress& progress = {});
 
 }  // namespace rangezip

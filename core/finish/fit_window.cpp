@@ -73,21 +73,23 @@ std::vector<Probe> make_probes(const TriangleMesh& mesh, const PointGrid& cloud,
 
 /// Estimated mean square error of fits in a window; nothing if too few are found.
 std::optional<double> error_of(const std::vector<Probe>& probes, const PointGrid& cloud,
-                               const SurfaceWindow& window, double noise2) {
+                               const SurfaceWindow& window, double noise2, double pixel_size) {
   std::vector<MeasuredFit> fits(probes.size());
   parallel_for(probes.size(), kPerBlock, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       fits[i] = measure_surface(cloud, probes[i].place, probes[i].normal, window);
   });
+  const double covariance = fit_covariance(kRadii.front() * pixel_size, window.radius);
   double sum = 0.0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < fits.size(); ++i) {
     if (!fits[i].fit.is_found) continue;
     const MeasuredFit& narrowest = probes[i].narrowest;
     const double apart = fits[i].fit.height - narrowest.fit.height;
-    // The wider fit hardly varies with the narrower one, so their difference has the variance
-    // narrowest.share2 - share2; what is left is bias. To it comes the wider fit's own variance.
-    sum += apart * apart + noise2 * (2.0 * fits[i].scatter.share2 - narrowest.scatter.share2);
+    // What their difference has beyond its own variance is bias; to it comes the wider fit's
+    // variance.
+    sum += apart * apart +
+           noise2 * (2.0 * covariance * fits[i].scatter.share2 - narrowest.scatter.share2);
     ++count;
   }
   if (count < kMinAnswers) return std::nullopt;
@@ -96,8 +98,14 @@ std::optional<double> error_of(const std::vector<Probe>& probes, const PointGrid
 
 }  // namespace
 
+SurfaceWindow FitWindow::at(const Vec3& place, double times) const {
+  SurfaceWindow here = window;
+  here.radius *= times * radii.share_at(place);
+  return here;
+}
+
 FitWindow choose_fit_window(const TriangleMesh& mesh, const PointGrid& cloud, double pixel_size) {
-  FitWindow chosen{{kRadii.front() * pixel_size, kFirstHeight * pixel_size, 0.0}, 0.0};
+  FitWindow chosen{{kRadii.front() * pixel_size, kFirstHeight * pixel_size, 0.0}, 0.0, {}};
   std::vector<Probe> probes = make_probes(mesh, cloud, chosen.window);
   if (probes.size() < kMinAnswers) return chosen;
   std::vector<double> squares;
@@ -115,7 +123,7 @@ FitWindow choose_fit_window(const TriangleMesh& mesh, const PointGrid& cloud, do
   double least = std::numeric_limits<double>::infinity();
   for (const double radius : kRadii) {
     const SurfaceWindow window{radius * pixel_size, chosen.window.height, 0.0};
-    const std::optional<double> error = error_of(probes, cloud, window, noise2);
+    const std::optional<double> error = error_of(probes, cloud, window, noise2, pixel_size);
     if (!error) continue;
     if (*error <= kTolerance * kTolerance * least) chosen.window.radius = window.radius;
     least = std::min(least, *error);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/finish/fit_radii.h"
 #include "core/finish/point_grid.h"
 #include "core/finish/surface_fit.h"
 #include "core/mesh/triangle_mesh.h"
@@ -10,6 +11,10 @@ namespace rangezip {
 struct FitWindow {
   SurfaceWindow window;
   double noise = 0.0;  ///< standard deviation of the points from the surface, model units
+  FitRadii radii;      ///< by how much the window is wider or narrower at a place
+
+  /// The window for fits at a place, or one with a multiple of its radius.
+  [[nodiscard]] SurfaceWindow at(const Vec3& place, double times = 1.0) const;
 };
 
 /// Chooses the window in proportion to what the samples show: the radius at which the squared error

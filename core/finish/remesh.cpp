@@ -62,8 +62,7 @@ class Remesher {
 
   void run(RemeshReport& report, const Progress& progress) {
     for (const double share : kProjections)
-      move_vertices(0.0, {share * options_.window.radius, options_.window.height,
-                          options_.window.noise, options_.window.widest});
+      move_vertices(0.0, share);
     for (int round = 0; round < options_.rounds; ++round) {
       progress.check_stop();
       if (round + kClosingRounds < options_.rounds) {
@@ -82,12 +81,12 @@ class Remesher {
         report.flipped_edges += flip_for_angles(table_, positions_);
       }
       report.flattened_spikes += flatten_spikes(positions_, table_, cloud_, options_.pixel_size);
-      move_vertices(kRelaxStep, options_.window);
+      move_vertices(kRelaxStep);
     }
     report.flipped_edges += flip_for_angles(table_, positions_);
     report.collapsed_edges += collapse_small_angles();
     for (int round = 0; round < kAligningRounds; ++round) {
-      if (round > 0) move_vertices(kRelaxStep, options_.window);
+      if (round > 0) move_vertices(kRelaxStep);
       report.flipped_edges += flip_for_normals(table_, positions_, surface_normals());
     }
   }
@@ -185,11 +184,11 @@ class Remesher {
     return ok;
   }
 
-  void move_vertices(double step, const SurfaceWindow& window) {
+  void move_vertices(double step, double radii = 1.0) {
     std::vector<Vec3> moved(positions_.size());
     parallel_for(positions_.size(), kPerBlock, [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v)
-        moved[v] = place_for(static_cast<std::uint32_t>(v), step, window);
+        moved[v] = place_for(static_cast<std::uint32_t>(v), step, radii);
     });
     for (std::uint32_t v = 0; v < positions_.size(); ++v) {
       if (moved[v] != at(v) && turns_no_face(table_, positions_, v, moved[v]))
@@ -198,7 +197,7 @@ class Remesher {
   }
 
   /// Towards the middle of the faces around, then onto the surface of the cloud.
-  [[nodiscard]] Vec3 place_for(std::uint32_t v, double step, const SurfaceWindow& window) {
+  [[nodiscard]] Vec3 place_for(std::uint32_t v, double step, double radii) {
     const Vec3& p = at(v);
     if (table_.is_boundary(v)) return p;
     Vec3 sum{0.0};
@@ -213,13 +212,12 @@ class Remesher {
     if (!(weight > 0.0)) return p;
     const Vec3 normal = vertex_normal(table_, positions_, v);
     const Vec3 shift = sum / weight - p;
-    return projected(v, p + step * (shift - glm::dot(shift, normal) * normal), normal, window);
+    return projected(v, p + step * (shift - glm::dot(shift, normal) * normal), normal, radii);
   }
 
-  [[nodiscard]] Vec3 projected(std::uint32_t v, const Vec3& p, const Vec3& normal,
-                               const SurfaceWindow& window) {
+  [[nodiscard]] Vec3 projected(std::uint32_t v, const Vec3& p, const Vec3& normal, double radii) {
     SurfaceFit& fit = fits_[v];
-    fit = fit_surface(surface_, p, normal, window);
+    fit = fit_surface(surface_, p, normal, options_.fit.at(p, radii));
     if (fit.is_found && glm::dot(fit.normal, normal) < kFitMinCosine) fit.is_found = false;
     return fit.is_found ? p + fit.height * normal : p;
   }

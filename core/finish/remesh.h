@@ -3,15 +3,15 @@
 #include <cstddef>
 
 #include "core/base/progress.h"
+#include "core/finish/fit_window.h"
 #include "core/finish/point_grid.h"
-#include "core/finish/surface_fit.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace rangezip {
 
 struct RemeshOptions {
   double pixel_size = 0.0;    ///< h, model units; positive
-  SurfaceWindow window;       ///< of the fits to the surface
+  FitWindow fit;              ///< of the surface
   std::size_t triangles = 0;  ///< how many there are to be, met within a few percent; 0: as many as
                               ///< there are
   int rounds = 7;             ///< fewer than three keep the number of triangles

@@ -294,6 +294,13 @@ SurfaceFit fit_surface(const PointGrid& cloud, const Vec3& place, const Vec3& no
   }
 }
 
+double fit_covariance(double narrow_radius, double wide_radius) {
+  // Of even points a fit takes the height with the weights (1 - t)^3 (10 - 30 t), t the squared
+  // distance in radii; this is the integral of the product of two such, over that of the square.
+  const double q = narrow_radius / wide_radius * narrow_radius / wide_radius;
+  return 1.4 - q * q * (0.8 - q * (0.5 - 0.1 * q));
+}
+
 MeasuredFit measure_surface(const PointGrid& cloud, const Vec3& place, const Vec3& normal,
                             const SurfaceWindow& window) {
   const Frame frame(normal);

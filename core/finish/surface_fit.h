@@ -50,4 +50,9 @@ struct MeasuredFit {
 [[nodiscard]] MeasuredFit measure_surface(const PointGrid& cloud, const Vec3& place,
                                           const Vec3& normal, const SurfaceWindow& window);
 
+/// The covariance of the heights of two fits at a place, as a multiple of the variance of the wider
+/// one: 1 for the same radius, towards 1.4 for a much narrower one. It follows from the weights,
+/// for points all around that are spread evenly.
+[[nodiscard]] double fit_covariance(double narrow_radius, double wide_radius);
+
 }  // namespace rangezip

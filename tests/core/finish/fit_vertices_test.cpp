@@ -45,7 +45,7 @@ TEST_CASE("faces, not only their corners, come to lie on the surface") {
   TriangleMesh mesh = testing::sphere(12);
   const Gap before = gap_of(mesh);
   REQUIRE(before.mean > 0.0);
-  fit_vertices(mesh, cloud, {1.3 * kH, kH});
+  fit_vertices(mesh, cloud, {{1.3 * kH, kH}, 0.0, {}});
   const Gap after = gap_of(mesh);
   REQUIRE(std::abs(after.mean) < 0.05 * before.mean);
   // Over an equilateral triangle the height is proportional to s = b0 b1 + b1 b2 + b2 b0, whose
@@ -62,7 +62,7 @@ TEST_CASE("a plane stays a plane, and the boundary stays") {
   for (Vec3& p : points)
     p = {testing::uniform(engine, -1, 1), testing::uniform(engine, -1, 1), 1.0};
   const TriangleMesh before = mesh;
-  fit_vertices(mesh, PointGrid(points, {Vec3(-2.0), Vec3(2.0)}, 0.1), {0.2, 0.2});
+  fit_vertices(mesh, PointGrid(points, {Vec3(-2.0), Vec3(2.0)}, 0.1), {{0.2, 0.2}, 0.0, {}});
   for (std::size_t v = 0; v < mesh.positions.size(); ++v)
     REQUIRE(glm::length(mesh.positions[v] - before.positions[v]) < 1e-6);
   REQUIRE(mesh.triangles == before.triangles);
@@ -71,7 +71,7 @@ TEST_CASE("a plane stays a plane, and the boundary stays") {
 TEST_CASE("without points nothing moves") {
   TriangleMesh mesh = testing::sphere(6);
   const TriangleMesh before = mesh;
-  fit_vertices(mesh, PointGrid({}, {Vec3(-1.0), Vec3(1.0)}, 0.1), {0.2, 0.2});
+  fit_vertices(mesh, PointGrid({}, {Vec3(-1.0), Vec3(1.0)}, 0.1), {{0.2, 0.2}, 0.0, {}});
   REQUIRE(mesh == before);
 }
 

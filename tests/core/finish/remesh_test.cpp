@@ -28,7 +28,7 @@ struct RoughSphere {
 
   [[nodiscard]] PointGrid cloud() const { return {points, Box{Vec3(-1.5), Vec3(1.5)}, 0.7 * h}; }
   [[nodiscard]] RemeshOptions options(std::size_t triangles = 0) const {
-    return {.pixel_size = h, .window = {1.3 * h, h}, .triangles = triangles};
+    return {.pixel_size = h, .fit = {{1.3 * h, h}, 0.0, {}}, .triangles = triangles};
   }
 };
 
