@@ -53,9 +53,10 @@ using Edge = std::pair<std::uint32_t, std::uint32_t>;
 struct Strip {
   std::uint32_t loop_a = 0, loop_b = 0;
   HoleFill fill;
-  std::vector<Vec3> middles;  ///< of its long edges
-  double mean_edge = 0.0;     ///< of all inner edges
-  bool is_shown = false;      ///< points can tell: most edges are long
+  std::vector<Vec3> middles;    ///< of its long edges
+  double mean_edge = 0.0;       ///< of all inner edges
+  bool is_shown = false;        ///< points can tell: most edges are long
+  bool is_through_air = false;  ///< both fills would lie in it: they would be wrong
 };
 
 /// A loop as one side of a strip, in filling order.
@@ -111,7 +112,7 @@ class Joiner {
         loops_(boundary_loops(table_)) {}
 
   /// The strips to close, none of which shares a loop with another.
-  [[nodiscard]] std::vector<HoleFill> strips() const {
+  [[nodiscard]] std::vector<Strip> strips() const {
     if (loops_.size() < 2) return {};
     const std::vector<std::uint32_t> component = components_of(table_);
     const auto are_wanted = [&](std::uint32_t a, std::uint32_t b) {
@@ -135,15 +136,15 @@ class Joiner {
 
  private:
   /// The narrowest come first.
-  [[nodiscard]] std::vector<HoleFill> one_for_each_loop(std::vector<Strip> strips) const {
+  [[nodiscard]] std::vector<Strip> one_for_each_loop(std::vector<Strip> strips) const {
     std::stable_sort(strips.begin(), strips.end(),
                      [](const Strip& a, const Strip& b) { return a.mean_edge < b.mean_edge; });
     std::vector<std::uint8_t> is_joined(loops_.size(), 0);
-    std::vector<HoleFill> chosen;
+    std::vector<Strip> chosen;
     for (Strip& strip : strips) {
       if (is_joined[strip.loop_a] != 0 || is_joined[strip.loop_b] != 0) continue;
       is_joined[strip.loop_a] = is_joined[strip.loop_b] = 1;
-      chosen.push_back(std::move(strip.fill));
+      chosen.push_back(std::move(strip));
     }
     return chosen;
   }
@@ -230,9 +231,9 @@ class Joiner {
     strip.is_shown = !cloud_.empty() && 2 * strip.middles.size() >= edges.size();
   }
 
+  /// Also finds out whether the strip leads through air.
   /// @param is_covered by the mesh, of each middle
-  [[nodiscard]] bool is_surface(const Strip& strip,
-                                std::span<const std::uint8_t> is_covered) const {
+  [[nodiscard]] bool is_surface(Strip& strip, std::span<const std::uint8_t> is_covered) const {
     const double continued = continuation_of_strip(strip);
     if (!strip.is_shown)
       return continued >= kMinContinued && continued > continuation_of_fills(strip);
@@ -243,6 +244,7 @@ class Joiner {
     if (static_cast<double>(covered) > kMaxCovered * count) return false;
     const Inside a = inside_of(strip.loop_a), b = inside_of(strip.loop_b);
     if (a == Inside::points || b == Inside::points) return false;
+    strip.is_through_air = a == Inside::air && b == Inside::air;
     const bool is_air = a == Inside::air || b == Inside::air;
     const auto supported =
         std::count_if(strip.middles.begin(), strip.middles.end(), [&](const Vec3& middle) {
@@ -283,11 +285,15 @@ class Joiner {
 }  // namespace
 
 JoinedLoops join_loops(TriangleMesh& mesh, const PointGrid& cloud, double pixel_size) {
-  const std::vector<HoleFill> strips = Joiner(mesh, cloud, pixel_size).strips();
+  const std::vector<Strip> strips = Joiner(mesh, cloud, pixel_size).strips();
+  std::vector<HoleFill> fills;
+  for (const Strip& strip : strips)
+    fills.push_back(strip.fill);
   JoinedLoops result{.is_hindered = std::vector<std::uint8_t>(mesh.positions.size(), 0)};
-  const std::vector<std::size_t> hindered = append_verified(mesh, strips);
+  const std::vector<std::size_t> hindered = append_verified(mesh, fills);
   for (const std::size_t i : hindered) {
-    for (const Triangle& t : strips[i].triangles) {
+    if (!strips[i].is_through_air) continue;
+    for (const Triangle& t : fills[i].triangles) {
       for (const std::uint32_t v : t)
         result.is_hindered[v] = 1;
     }

@@ -12,7 +12,8 @@ namespace rangezip {
 
 struct JoinedLoops {
   std::size_t pairs = 0;                  ///< that were joined
-  std::vector<std::uint8_t> is_hindered;  ///< of vertices: in a loop whose strip crosses something
+  std::vector<std::uint8_t> is_hindered;  ///< of vertices: in a loop that is not to be filled,
+                                          ///< since its strip only crosses something
 };
 
 /// Closes the gaps in walls of holes that lead through the object (own). Scans from both ends of
@@ -30,9 +31,11 @@ struct JoinedLoops {
 /// - where no point can tell, the strip goes on from the faces beside it with a mean cosine of 0.5,
 ///   and better than the fills.
 /// A loop is joined once; the narrowest strips come first. A strip that crosses the mesh or another
-/// one is not made, but its loops are named: they may be joined once faces around them are gone,
-/// and should not be filled before. O(faces), and for each pair of loops what a dozen of their
-/// fills cost. The mesh stays manifold and without self-intersections. In parallel.
+/// one is not made. Where both fills would lie in the air, its loops are named: they may be
+/// joined once faces around them are gone, and should not be filled before. Not where holes are too
+/// small to tell: the faces around them may be all there is of a thin limb. O(faces), and for each
+/// pair of loops what a dozen of their fills cost. The mesh stays manifold and without
+/// self-intersections. In parallel.
 /// @param cloud may be empty: then faces alone tell
 /// @param pixel_size h, model units; positive
 /// @pre oriented, manifold, no self-intersections
