@@ -21,6 +21,11 @@ constexpr std::size_t kNeighbours = 16;
 
 constexpr double kPixelsPerNoise = 4.0;  // a step of one pixel is then rarely noise
 
+/// Heights over a plane are those of two sheets if the gap between them is so many times as wide
+/// as their spread on either side of it. Of noise fewer than one neighbourhood in a hundred has
+/// such a gap.
+constexpr double kSheetGap = 4.0;
+
 /// Points looked at before all others, so that the search radius is small from then on.
 constexpr std::size_t kFirstLook = 20'000;
 
@@ -163,29 +168,88 @@ void find_neighbours(std::span<const Vec3> points, std::vector<Neighbourhood>& q
   }
 }
 
-/// The sum of the outer products of some places and their centre, about their mean.
-Mat3 scatter_of(const Vec3& center, std::span<const Vec3> places) {
-  const auto count = static_cast<double>(places.size() + 1);
-  Vec3 mean{0.0};  // of the offsets from the centre, which keep their digits far from the origin
+/// A neighbourhood's centre and its nearest places, as offsets from the centre: these keep their
+/// digits far from the origin.
+std::vector<Vec3> offsets_of(const Neighbourhood& neighbourhood, std::size_t nearest) {
+  std::vector<Vec3> offsets{Vec3(0.0)};
+  for (const Vec3& place : neighbourhood.places().first(nearest))
+    offsets.push_back(place - neighbourhood.center());
+  return offsets;
+}
+
+/// The sum of the outer products of some places, about their mean.
+Mat3 scatter_of(std::span<const Vec3> places) {
+  Vec3 mean{0.0};
   for (const Vec3& place : places)
-    mean += place - center;
-  mean /= count;
-  Mat3 scatter = glm::outerProduct(mean, mean);  // the centre's own share
-  for (const Vec3& place : places) {
-    const Vec3 offset = place - center - mean;
-    scatter += glm::outerProduct(offset, offset);
-  }
+    mean += place;
+  mean /= static_cast<double>(places.size());
+  Mat3 scatter{0.0};
+  for (const Vec3& place : places)
+    scatter += glm::outerProduct(place - mean, place - mean);
   return scatter;
 }
 
+/// The spacing that a neighbourhood shows, if its places fill a disc around the centre.
+double spacing_of(const Neighbourhood& neighbourhood) {
+  const auto count = static_cast<double>(neighbourhood.places().size());
+  return neighbourhood.farthest() * std::sqrt(std::numbers::pi / count);
+}
+
+/// Places in the order of their heights along a normal, parted at the widest gap.
+struct TwoSheets {
+  Vec3 normal{0.0};
+  std::vector<Vec3> places;
+  std::size_t cut = 1;  ///< the first one past the gap
+
+  [[nodiscard]] double height(std::size_t i) const { return glm::dot(places[i], normal); }
+  [[nodiscard]] double gap_before(std::size_t i) const { return height(i) - height(i - 1); }
+  [[nodiscard]] std::span<const Vec3> lower() const { return std::span(places).first(cut); }
+  [[nodiscard]] std::span<const Vec3> upper() const { return std::span(places).subspan(cut); }
+};
+
+TwoSheets part_along(const Vec3& normal, std::span<const Vec3> places) {
+  TwoSheets parted{normal, {places.begin(), places.end()}};
+  std::sort(parted.places.begin(), parted.places.end(), [&](const Vec3& a, const Vec3& b) {
+    return glm::dot(a, normal) < glm::dot(b, normal);
+  });
+  for (std::size_t i = 2; i < parted.places.size(); ++i) {
+    if (parted.gap_before(i) > parted.gap_before(parted.cut)) parted.cut = i;
+  }
+  return parted;
+}
+
+/// The places that lie on the centre's side of a wall: all, or those on this side of a gap along
+/// the normal that is at least a spacing wide, and so wide that neither noise nor a bend leaves it.
+/// @param places as offsets_of() gives them
+std::vector<Vec3> own_sheet(std::span<const Vec3> places, double spacing) {
+  constexpr std::size_t kNearest = 7;  // the centre and its first ring: of one sheet, mostly
+  constexpr int kRounds = 4;           // both sheets tell the normal, better each time
+  const std::vector<Vec3> all(places.begin(), places.end());
+  if (all.size() <= kNearest) return all;
+  Mat3 scatter = scatter_of(places.first(kNearest));
+  TwoSheets parted;
+  for (int round = 0; round < kRounds; ++round) {
+    parted = part_along(eigen_of_symmetric(scatter).vectors[0], places);
+    scatter = scatter_of(parted.lower()) + scatter_of(parted.upper());
+  }
+  const double squares = glm::dot(parted.normal, scatter * parted.normal);
+  const double spread = std::sqrt(std::max(0.0, squares) / static_cast<double>(all.size()));
+  if (parted.gap_before(parted.cut) < std::max(spacing, kSheetGap * spread)) return all;
+  const bool is_center_below = parted.height(parted.cut) > 0.0;
+  const std::span<const Vec3> own = is_center_below ? parted.lower() : parted.upper();
+  return {own.begin(), own.end()};
+}
+
 /// RMS distance of a neighbourhood's places and centre from their best plane, in an unbiased
-/// estimate (the plane takes up three degrees of freedom); 0 where that says nothing.
+/// estimate (the plane takes up three degrees of freedom), without those on the other side of a
+/// wall; 0 where that says nothing.
 double distance_from_plane(const Neighbourhood& neighbourhood) {
-  const std::size_t count = neighbourhood.places().size() + 1;
-  if (count <= 3) return 0.0;
-  const Mat3 scatter = scatter_of(neighbourhood.center(), neighbourhood.places());
-  const double squares = std::max(0.0, eigen_of_symmetric(scatter).values[0]);
-  return std::sqrt(squares / static_cast<double>(count - 3));
+  if (neighbourhood.places().empty()) return 0.0;
+  const std::vector<Vec3> sheet = own_sheet(
+      offsets_of(neighbourhood, neighbourhood.places().size()), spacing_of(neighbourhood));
+  if (sheet.size() <= 3) return 0.0;
+  const double squares = std::max(0.0, eigen_of_symmetric(scatter_of(sheet)).values[0]);
+  return std::sqrt(squares / static_cast<double>(sheet.size() - 3));
 }
 
 /// A place on a contour, as its nearest neighbours show it.
@@ -200,10 +264,9 @@ std::vector<ContourPlace> places_on_contours(std::span<const Neighbourhood> quer
   std::vector<ContourPlace> found;
   for (const Neighbourhood& query : queries) {
     if (query.places().size() < kNeighbours) continue;
-    const std::span<const Vec3> nearest = query.places().first(kOnLine);
-    const SymmetricEigen eigen = eigen_of_symmetric(scatter_of(query.center(), nearest));
+    const SymmetricEigen eigen = eigen_of_symmetric(scatter_of(offsets_of(query, kOnLine)));
     if (eigen.values[1] > kLineWidth * kLineWidth * eigen.values[2]) continue;
-    const double reach = std::sqrt(squared_distance(nearest.back(), query.center()));
+    const double reach = std::sqrt(squared_distance(query.places()[kOnLine - 1], query.center()));
     found.push_back({query.center(), eigen.vectors[2], 2.0 * reach / kOnLine});
   }
   return found;
@@ -276,8 +339,7 @@ Spacing estimate_spacing(std::span<const Vec3> points) {
   std::vector<double> spacings;
   std::vector<double> noises;
   for (const Neighbourhood& query : queries) {
-    const auto neighbours = static_cast<double>(query.places().size());
-    spacings.push_back(query.farthest() * std::sqrt(std::numbers::pi / neighbours));
+    spacings.push_back(spacing_of(query));
     noises.push_back(distance_from_plane(query));
   }
   Spacing spacing{.median = quantile(spacings, 0.5), .quantile75 = quantile(spacings, 0.75)};

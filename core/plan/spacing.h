@@ -27,7 +27,8 @@ struct Spacing {
 /// and 75 % quantile of how far the slices on both sides are, the farther one, but at most twice as
 /// far as the nearer one; its spacings are sqrt(gap * step), `step` from point to point on a slice.
 /// The noise is measured against a plane, so curvature counts as noise where the surface bends
-/// within a few spacings.
+/// within a few spacings; what lies on the other side of a wall, at least a spacing thick, does
+/// not.
 /// @throws InvalidArgument if fewer than three distinct points are given.
 [[nodiscard]] Spacing estimate_spacing(std::span<const Vec3> points);
 

@@ -1,6 +1,7 @@
 #include "core/plan/spacing.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <numbers>
 
 #include "core/base/error.h"
@@ -83,6 +84,27 @@ TEST_CASE("estimate_spacing measures noise across the surface") {
   // lies 2.4 % below, and scatters by 24 % / sqrt(300) = 1.4 %. The plane of 17 points in 3D takes
   // the least spread, which costs some more.
   CHECK(spacing.noise == Approx(sigma).epsilon(0.15));
+}
+
+TEST_CASE("estimate_spacing does not take the other side of a thin wall for noise") {
+  // Two sheets of random points: among 16 neighbours, in a disc of a radius of 2.3 spacings, some
+  // are on the other sheet.
+  const std::size_t count = 20'000;  // a sheet, 1 across
+  const double step = 1.0 / std::sqrt(static_cast<double>(count));
+  for (const double sigma : {0.0, 0.1 * step}) {
+    for (const double thickness : {1.6 * step, 2.0 * step, 2.5 * step}) {
+      CAPTURE(sigma / step, thickness / step);
+      shapes::Random random(7);
+      std::vector<Vec3> points;
+      for (std::size_t i = 0; i < 2 * count; ++i) {
+        const double height = i % 2 == 0 ? 0.0 : thickness;
+        const double noise = sigma * std::sqrt(3.0) * random.between(-1.0, 1.0);
+        points.emplace_back(random.between(0.0, 1.0), random.between(0.0, 1.0), height + noise);
+      }
+      const double noise = estimate_spacing(rotated(std::move(points))).noise;
+      CHECK(noise == Approx(sigma).epsilon(0.25).margin(1e-9));
+    }
+  }
 }
 
 TEST_CASE(
