@@ -15,6 +15,7 @@ std::string name_of(const Command& command) {
   struct Name {
     std::string operator()(const AddScan&) const { return "scan"; }
     std::string operator()(const EraseRegion&) const { return "erase"; }
+    std::string operator()(const ErasePlaces&) const { return "erase_places"; }
     std::string operator()(const SmoothMesh&) const { return "smooth"; }
     std::string operator()(const FillMeshHoles&) const { return "fill"; }
     std::string operator()(const DropUnsupported&) const { return "drop_unsupported"; }

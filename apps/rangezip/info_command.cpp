@@ -71,8 +71,8 @@ void print_topology(Console& console, const TriangleMesh& mesh, bool check) {
 }
 
 std::string_view name_of(const Command& command) {
-  constexpr std::array<std::string_view, 7> kNames{
-      "scan", "erase", "smooth", "fill", "drop_unsupported", "finish", "undo"};
+  constexpr std::array<std::string_view, 8> kNames{
+      "scan", "erase", "erase_places", "smooth", "fill", "drop_unsupported", "finish", "undo"};
   static_assert(std::variant_size_v<Command> == kNames.size());
   return kNames.at(command.index());
 }

@@ -178,12 +178,14 @@ void describe(Fields& f, VoteOptions& options) {
 /// The members of a ScanRequest stand beside those of AddScan.
 template <class Fields>
 void describe(Fields& f, ScanRequest& request) {
-  auto& [camera, extent, region, point_size, see_through, back_side, plane_fit, fill_holes, median,
-         steep_cells, correspondence, unmatched_only, quality, smooth_quality, clean_mask,
+  auto& [camera, extent, region, places, point_size, see_through, back_side, plane_fit, fill_holes,
+         median, steep_cells, correspondence, unmatched_only, quality, smooth_quality, clean_mask,
          triangulate, decimate] = request;
   f.camera("camera", camera, "where the virtual scanner stands");
   f.object("extent", extent, "size of the image");
   f.polygon("region", region, "corners [x, y] in window coordinates (pixels, y up); empty: all");
+  f.spheres("places", places,
+            "where samples are taken, as [x, y, z, radius] in world space; empty: everywhere");
   f.integer("point_size", point_size, {1, kMaxPointSize}, "pixels");
   f.optional("see_through", see_through,
              "removes samples seen through gaps of a nearer sheet, and outliers; null: not run");
@@ -219,6 +221,12 @@ void describe(Fields& f, EraseRegion& command) {
   f.object("extent", extent, "size of the image");
   f.polygon("region", region, "corners [x, y] in window coordinates (pixels, y up); empty: all");
   f.boolean("visible_only", visible_only, "false: faces behind the visible ones too");
+}
+
+template <class Fields>
+void describe(Fields& f, ErasePlaces& command) {
+  auto& [places] = command;
+  f.spheres("places", places, "as [x, y, z, radius]: faces with their centroid in one go");
 }
 
 template <class Fields>
@@ -284,6 +292,7 @@ template <class Visit>
 void for_each_command_type(const Visit& visit) {
   visit("scan", "scans the inputs and stitches the patch into the mesh", AddScan{});
   visit("erase", "deletes the faces seen inside a region", EraseRegion{});
+  visit("erase_places", "deletes the faces in some places", ErasePlaces{});
   visit("smooth", "Laplacian smoothing of all inner vertices", SmoothMesh{});
   visit("fill", "closes boundary loops", FillMeshHoles{});
   visit("drop_unsupported", "drops the faces that no point lies near", DropUnsupported{});

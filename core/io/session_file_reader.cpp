@@ -149,6 +149,18 @@ class Reader {
       corners.emplace_back(xy[0], xy[1]);
     }
   }
+  void spheres(const char* name, std::vector<Sphere>& spheres, const char*) {
+    const Json* member = find(name);
+    if (member == nullptr) return;
+    if (!member->is_array()) refuse(at(name), "must be an array of [x, y, z, radius]", *member);
+    spheres.clear();
+    for (std::size_t i = 0; i < member->size(); ++i) {
+      const std::string pointer = at(name) + '/' + std::to_string(i);
+      const auto numbers = read_numbers((*member)[i], pointer, 4);
+      if (!(numbers[3] > 0.0)) refuse(pointer, "must have a positive radius", (*member)[i]);
+      spheres.push_back({{numbers[0], numbers[1], numbers[2]}, numbers[3]});
+    }
+  }
   void camera(const char* name, Camera& camera, const char*) {
     require(name);
     if (const Json* member = find(name)) {

@@ -132,6 +132,9 @@ class SchemaBuilder {
     schema["anyOf"] = {{{"maxItems", 0}}, {{"minItems", 3}}};
     add(name, std::move(schema), text)["default"] = Json::array();
   }
+  void spheres(const char* name, const std::vector<Sphere>&, const char* text) {
+    add(name, array_schema(array_schema({{"type", "number"}}, 4)), text)["default"] = Json::array();
+  }
   void camera(const char* name, const Camera&, const char* text) {
     add(name, {{"$ref", "#/$defs/camera"}}, text);
     schema_["required"].push_back(name);

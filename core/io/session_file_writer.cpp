@@ -61,6 +61,14 @@ class Writer {
     }
     json_[name] = std::move(list);
   }
+  void spheres(const char* name, const std::vector<Sphere>& spheres, const char*) {
+    Json list = Json::array();
+    for (const auto& [center, radius] : spheres) {
+      list.push_back({finite(name, center.x), finite(name, center.y), finite(name, center.z),
+                      finite(name, radius)});
+    }
+    json_[name] = std::move(list);
+  }
   void camera(const char* name, const Camera& camera, const char*) {
     Json rows = Json::array();
     for (int row = 0; row < 4; ++row) {

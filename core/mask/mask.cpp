@@ -48,6 +48,17 @@ Mask sample_mask(const RangeImage& image) {
   return mask;
 }
 
+Mask mask_of_places(const RangeImage& image, std::span<const Sphere> places) {
+  Mask mask(image.extent(), 0);
+  for_each_row(image.extent().height, [&](int y) {
+    for (Pixel p{0, y}; p.x < image.extent().width; ++p.x) {
+      if (!image.has_sample(p)) continue;
+      mask[p] = is_in_any(places, image.position(p)) ? 1 : 0;
+    }
+  });
+  return mask;
+}
+
 Mask mask_from_lasso(Extent extent, std::span<const Vec2> lasso) {
   if (lasso.size() < 3) {
     throw InvalidArgument("mask_from_lasso: a polygon needs at least 3 corners, got " +

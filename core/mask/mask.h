@@ -3,6 +3,7 @@
 #include <span>
 
 #include "core/base/geometry.h"
+#include "core/base/sphere.h"
 #include "core/image/range_image.h"
 
 namespace rangezip {
@@ -12,6 +13,9 @@ namespace rangezip {
 
 /// Pixels with a sample.
 [[nodiscard]] Mask sample_mask(const RangeImage& image);
+
+/// Pixels whose sample lies in one of the places. O(pixels * places), in parallel.
+[[nodiscard]] Mask mask_of_places(const RangeImage& image, std::span<const Sphere> places);
 
 /// The region of interest: pixels whose centre is inside the polygon (even-odd rule).
 /// @param lasso Corners in window coordinates; the last is joined to the first.

@@ -15,6 +15,7 @@
 #include "core/plan/spread.h"
 #include "core/plan/view_planner.h"
 #include "core/reconstruct/left_out_points.h"
+#include "core/reconstruct/papered_holes.h"
 #include "core/reconstruct/resolution.h"
 #include "core/reconstruct/scan_recipe.h"
 
@@ -28,6 +29,14 @@ constexpr int kCoverRounds = 2;
 constexpr int kCoverViewsPerRound = 12;
 /// In h: the pixels of those views of narrow gaps, which h does not resolve.
 constexpr double kCoverPixel = 0.5;
+/// Rounds of views of papered holes; the second sees what the first left out, so many h away.
+constexpr int kHoleRounds = 2;
+constexpr double kLeftOutOfHole = 0.4;
+constexpr double kMinNewInHoles = 10;  ///< points that such a view must add
+/// In h: around a place so much more is scanned than was erased.
+constexpr double kHoleMargin = 1.0;
+/// Noise per pixel side: in finer scans steps of a pixel would be noise.
+constexpr double kMaxNoise = 0.125;
 constexpr double kMinNewPoints = 40;  ///< that a view must add: fewer are a few pixels
 /// Of the samples: less is left out by noise and in the pockets of real scans, where more views
 /// make handles rather than surface.
@@ -112,6 +121,7 @@ class Run {
     scan_planned_views();
     scan_uncovered();
     scan_fill_views();
+    rescan_papered_holes();
     finish_mesh();
     check_result();
     return std::move(result_);
@@ -148,6 +158,7 @@ class Run {
                .decimate = is_finished_whole ? std::nullopt : options_.decimate,
                .has_points = scene_.point_count() > 0};
     if (recipe_.has_points) recipe_.one_sided = is_open_sheet(rasterizer_, scene_points());
+    is_clean_ = resolution.noise <= kMaxNoise * recipe_.pixel_size;
     result_.report.pixel_size = recipe_.pixel_size;
     clock_.finish("resolution");
 
@@ -198,17 +209,9 @@ class Run {
         recipe.pixel_size = kCoverPixel * recipe_.pixel_size;
         drop_unsupported();
       }
-      const ViewPlan plan =
-          plan_views_of(rasterizer_, samples_, uncovered, recipe.pixel_size,
-                        {.max_views = kCoverViewsPerRound,
-                         .subset = kCoverSamples,
-                         .max_slope_cosine = kCosine75Degrees,
-                         .coverage = 1.0,
-                         .min_gain = kMinNewPoints / static_cast<double>(uncovered.size()),
-                         .views_for_quality = 0},
-                        part_of(progress_, "fill views", kFillShare, kFillShare));
-      if (plan.directions.empty()) break;
-      scan_into_holes(plan.directions, recipe);
+      const std::vector<Vec3> directions = views_of(uncovered, recipe, kMinNewPoints);
+      if (directions.empty()) break;
+      scan_into_holes(directions, recipe);
     }
     clock_.finish("uncovered");
   }
@@ -228,6 +231,43 @@ class Run {
     }
     if (has_narrow_gaps_) drop_unsupported();
     clock_.finish("fill views");
+  }
+
+  /// Where scans have papered over holes, the mesh goes, and the places are scanned again with
+  /// finer pixels. Last, since scans with the usual pixels would close the holes again.
+  void rescan_papered_holes() {
+    const bool is_plain_cloud = scene_.triangle_count() == 0 && recipe_.gap == 0.0;
+    const bool may_scan = !options_.views && options_.method == ReconstructMethod::automatic;
+    if (!may_scan || !is_plain_cloud || !is_clean_) return;
+    const double h = recipe_.pixel_size;
+    const PaperedHoles holes = find_papered_holes(samples_, *session_.mesh(), h);
+    if (holes.places.empty()) return;
+    apply(ErasePlaces{holes.places}, part_of(progress_, "fill views", kFinishShare, kFinishShare));
+    ScanRecipe recipe = recipe_;
+    recipe.pixel_size = kCoverPixel * h;
+    recipe.places = holes.places;
+    for (Sphere& place : recipe.places)
+      place.radius += kHoleMargin * h;
+    std::vector<Vec3> targets = holes.points;
+    for (int round = 0; round < kHoleRounds && !targets.empty(); ++round) {
+      scan_into_holes(views_of(targets, recipe, kMinNewInHoles), recipe);
+      targets = left_out_points(holes.points, *session_.mesh(), kLeftOutOfHole * h);
+    }
+    clock_.finish("papered holes");
+  }
+
+  /// Directions from which points are seen that the mesh leaves out.
+  [[nodiscard]] std::vector<Vec3> views_of(const std::vector<Vec3>& targets,
+                                           const ScanRecipe& recipe, double min_new) {
+    const ViewPlanOptions options{.max_views = kCoverViewsPerRound,
+                                  .subset = kCoverSamples,
+                                  .max_slope_cosine = kCosine75Degrees,
+                                  .coverage = 1.0,
+                                  .min_gain = min_new / static_cast<double>(targets.size()),
+                                  .views_for_quality = 0};
+    return plan_views_of(rasterizer_, samples_, targets, recipe.pixel_size, options,
+                         part_of(progress_, "fill views", kFillShare, kFillShare))
+        .directions;
   }
 
   /// Scans of an open sheet stay on the side of the first one.
@@ -278,6 +318,7 @@ class Run {
   StageClock clock_;
   Session session_;
   ScanRecipe recipe_;
+  bool is_clean_ = true;          ///< enough for scans with pixels of half the side
   bool has_narrow_gaps_ = false;  ///< that the planned views did not reach
   std::vector<Vec3> samples_;     ///< points, then area samples of polygons
 };

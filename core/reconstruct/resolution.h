@@ -13,6 +13,7 @@ namespace rangezip {
 struct Resolution {
   double pixel_size = 0.0;  ///< model units
   int point_size = 1;       ///< pixels: larger than 1 where the pixel is finer than the spacing
+  double noise = 0.0;       ///< of points along the normal, model units
   double gap = 0.0;         ///< between contours, model units; 0: the points are spread evenly
   Box bounds;               ///< of the object, without far outliers
 };

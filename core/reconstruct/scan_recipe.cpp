@@ -10,10 +10,26 @@ namespace {
 constexpr double kCosine75Degrees = 0.2588190451025207;
 constexpr int kImageMargin = 4;  ///< pixels around the object, so that no pass meets the border
 
+/// The places, with the surface around them that samples there are joined to.
+Box shown_box(const ScanRecipe& recipe) {
+  constexpr double kMargin = 6.0;  // pixels
+  if (recipe.places.empty()) return recipe.bounds;
+  Box box;
+  for (const Sphere& place : recipe.places) {
+    const Vec3 reach(place.radius + kMargin * recipe.pixel_size);
+    box.add(place.center - reach);
+    box.add(place.center + reach);
+  }
+  return box;
+}
+
 AddScan framed_scan(const ScanRecipe& recipe, const Vec3& toward_viewer, std::uint32_t view) {
-  FramedCamera framed = frame_box(recipe.bounds, toward_viewer, recipe.pixel_size, kImageMargin);
+  FramedCamera framed =
+      frame_box(shown_box(recipe), toward_viewer, recipe.pixel_size, kImageMargin);
   AddScan command;
-  command.scan.camera = std::move(framed.camera);
+  command.scan.places = recipe.places;
+  // What stands before the places hides what is in them.
+  command.scan.camera = fit_depth_planes(std::move(framed.camera), recipe.bounds);
   command.scan.extent = framed.extent;
   command.scan.point_size = recipe.point_size;
   command.scan.triangulate = {.max_edge = 2.75, .max_slope_cosine = kCosine75Degrees};
@@ -83,6 +99,8 @@ AddScan fill_scan(const ScanRecipe& recipe, const Vec3& toward_viewer, std::uint
   command.scan.unmatched_only = true;
   command.scan.clean_mask = {.erosions = 0, .dilations = 0};
   command.scan.triangulate.min_component = kMinFillFaces;
+  // An empty pixel may be a part of a hole there; other views fill what is none.
+  if (!recipe.places.empty()) command.scan.fill_holes.reset();
   return command;
 }
 

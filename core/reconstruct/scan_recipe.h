@@ -1,8 +1,10 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "core/base/geometry.h"
+#include "core/base/sphere.h"
 #include "core/reconstruct/reconstruct.h"
 #include "core/session/command.h"
 
@@ -11,7 +13,9 @@ namespace rangezip {
 /// What every scan of an automatic run has in common.
 struct ScanRecipe {
   ReconstructMethod method = ReconstructMethod::automatic;
-  Box bounds;                      ///< what the image must show, model units
+  Box bounds;                      ///< of the object, model units
+  std::vector<Sphere> places;      ///< where samples are taken, all that the image shows; empty:
+                                   ///< everywhere
   double pixel_size = 0.0;         ///< model units
   int point_size = 1;              ///< pixels
   double gap = 0.0;                ///< between contours, model units; 0: no contours

@@ -74,6 +74,9 @@ Mask selectable_samples(const Scan& scan, const ScanRequest& request, ScanReport
   if (!request.region.empty()) {
     restrict_to(selectable, mask_from_lasso(request.extent, request.region), true);
   }
+  if (!request.places.empty()) {
+    restrict_to(selectable, mask_of_places(scan.image, request.places), true);
+  }
   restrict_to(selectable, scan.correspondence.from_behind, false);
   return selectable;
 }

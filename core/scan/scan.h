@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/progress.h"
+#include "core/base/sphere.h"
 #include "core/image/back_side.h"
 #include "core/image/fill_holes.h"
 #include "core/image/median_filter.h"
@@ -28,8 +29,9 @@ namespace rangezip {
 struct ScanRequest {
   Camera camera;
   Extent extent{1024, 1024};
-  std::vector<Vec2> region;  ///< green lasso, window coordinates; empty: all
-  int point_size = 1;        ///< pixels
+  std::vector<Vec2> region;    ///< green lasso, window coordinates; empty: all
+  std::vector<Sphere> places;  ///< where samples are taken, world space; empty: everywhere
+  int point_size = 1;          ///< pixels
   std::optional<SeeThroughOptions> see_through;
   std::optional<BackSideOptions> back_side;
   std::optional<PlaneFitOptions> plane_fit;  ///< absent: the z-buffer minimum, as in the paper

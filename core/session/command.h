@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/base/sphere.h"
 #include "core/finish/finish.h"
 #include "core/scan/scan.h"
 #include "core/stitch/stitch.h"
@@ -32,6 +33,11 @@ struct EraseRegion {
   Extent extent{1024, 1024};
   std::vector<Vec2> region;  ///< window coordinates; empty: all
   bool visible_only = true;  ///< false: also what lies behind
+};
+
+/// Deletes the faces with their centroid in one of the places, to scan these anew.
+struct ErasePlaces {
+  std::vector<Sphere> places;
 };
 
 /// Laplacian smoothing of all vertices that are not on the boundary [Kobbelt, Botsch 2000, Fig. 9].
@@ -64,7 +70,7 @@ struct UndoSteps {
 };
 
 /// One step of a session. Plain data: written to a session file, it can be played back.
-using Command = std::variant<AddScan, EraseRegion, SmoothMesh, FillMeshHoles, DropUnsupported,
-                             FinishMesh, UndoSteps>;
+using Command = std::variant<AddScan, EraseRegion, ErasePlaces, SmoothMesh, FillMeshHoles,
+                             DropUnsupported, FinishMesh, UndoSteps>;
 
 }  // namespace rangezip

@@ -88,6 +88,15 @@ FaceFlags all_faces_inside(const TriangleMesh& mesh, const View& view, const Mas
   return erased;
 }
 
+EraseResult without(TriangleMesh mesh, const FaceFlags& erased) {
+  const std::size_t faces_before = mesh.triangles.size();
+  remove_triangles(mesh.triangles, erased);
+  clean_topology(mesh);
+  remove_unused_vertices(mesh);
+  const std::size_t erased_faces = faces_before - mesh.triangles.size();
+  return {.mesh = std::move(mesh), .erased_faces = erased_faces};
+}
+
 }  // namespace
 
 EraseResult erase_region(TriangleMesh mesh, Rasterizer& rasterizer, const EraseRegion& command) {
@@ -96,12 +105,14 @@ EraseResult erase_region(TriangleMesh mesh, Rasterizer& rasterizer, const EraseR
   const View view(fit_depth_planes(command.camera, bounds_of(mesh)), command.extent);
   const FaceFlags erased = command.visible_only ? visible_faces(mesh, view, lasso, rasterizer)
                                                 : all_faces_inside(mesh, view, lasso);
-  const std::size_t faces_before = mesh.triangles.size();
-  remove_triangles(mesh.triangles, erased);
-  clean_topology(mesh);
-  remove_unused_vertices(mesh);
-  const std::size_t erased_faces = faces_before - mesh.triangles.size();
-  return {.mesh = std::move(mesh), .erased_faces = erased_faces};
+  return without(std::move(mesh), erased);
+}
+
+EraseResult erase_places(TriangleMesh mesh, std::span<const Sphere> places) {
+  FaceFlags erased(mesh.triangles.size(), 0);
+  for (std::size_t face = 0; face < erased.size(); ++face)
+    erased[face] = is_in_any(places, centroid_of(mesh, face)) ? 1 : 0;
+  return without(std::move(mesh), erased);
 }
 
 }  // namespace rangezip

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
+#include "core/base/sphere.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/raster/rasterizer.h"
 #include "core/session/command.h"
@@ -22,5 +24,9 @@ struct EraseResult {
 ///     mask_from_lasso() refuses.
 [[nodiscard]] EraseResult erase_region(TriangleMesh mesh, Rasterizer& rasterizer,
                                        const EraseRegion& command);
+
+/// Deletes the faces with their centroid in one of the places. The mesh stays manifold, as above.
+/// O(faces * places).
+[[nodiscard]] EraseResult erase_places(TriangleMesh mesh, std::span<const Sphere> places);
 
 }  // namespace rangezip

@@ -73,6 +73,12 @@ class CommandRun {
     result_.report.erased_faces = erased.erased_faces;
   }
 
+  void operator()(const ErasePlaces& command) {
+    EraseResult erased = erase_places(std::move(result_.mesh), command.places);
+    result_.mesh = std::move(erased.mesh);
+    result_.report.erased_faces = erased.erased_faces;
+  }
+
   void operator()(const SmoothMesh& command) {
     result_.mesh = laplacian_smooth(std::move(result_.mesh), command.iterations, command.factor);
   }

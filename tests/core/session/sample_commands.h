@@ -30,6 +30,7 @@ inline std::vector<Command> full_commands(shapes::Random& random) {
   scan.scan.camera = random_camera(random, false);
   scan.scan.extent = {count(), count()};
   scan.scan.region = {{random.normal(), 1.0 / 3.0}, {random.normal(), 2.0}, {5.0, -0.0}};
+  scan.scan.places = {{{random.normal(), random.normal(), random.normal()}, share()}};
   scan.scan.point_size = count();
   scan.scan.see_through = {.max_slope = share(), .remove_outliers = false, .rounds = count()};
   scan.scan.back_side = {.min_gap = share()};
@@ -80,6 +81,7 @@ inline std::vector<Command> full_commands(shapes::Random& random) {
 
   return {scan,
           erase,
+          ErasePlaces{{{{random.normal(), random.normal(), 1.0 / 3.0}, share()}}},
           SmoothMesh{.iterations = count(), .factor = share()},
           FillMeshHoles{.pixel_size = share(), .max_perimeter = share()},
           DropUnsupported{.pixel_size = share()},

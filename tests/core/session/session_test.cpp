@@ -53,16 +53,26 @@ AddScan scan_from(const Vec3& toward_viewer, bool vote) {
 
 /// A small session with every kind of command that has a result.
 std::vector<Command> sample_session() {
-  return {scan_from({0, 0, 1}, true),
-          scan_from({0, 1, 0.2}, true),
-          erase_square(0.4),
-          SmoothMesh{.iterations = 2},
-          FillMeshHoles{},
-          DropUnsupported{},
-          FinishMesh{}};
+  return {scan_from({0, 0, 1}, true),  scan_from({0, 1, 0.2}, true),
+          erase_square(0.4),           ErasePlaces{{{{0.0, 0.0, 1.0}, 0.3}}},
+          SmoothMesh{.iterations = 2}, FillMeshHoles{},
+          DropUnsupported{},           FinishMesh{}};
 }
 
 }  // namespace
+
+TEST_CASE("erasing a place takes the faces in it and no others", "[session]") {
+  const TriangleMesh sphere = sphere_mesh();
+  const Sphere top{{0.0, 0.0, 1.0}, 0.3};
+  const EraseResult erased = erase_places(sphere, {&top, 1});
+  CHECK_NOTHROW(check_mesh(erased.mesh));
+  CHECK(report_mesh(erased.mesh).boundary_loops == 1);
+  CHECK(erased.erased_faces == sphere.triangles.size() - erased.mesh.triangles.size());
+  for (const auto& [a, b, c] : erased.mesh.triangles) {
+    const std::vector<Vec3>& p = erased.mesh.positions;
+    CHECK_FALSE(top.contains((p[a] + p[b] + p[c]) / 3.0));
+  }
+}
 
 TEST_CASE("erasing the visible faces of a square leaves one hole, erasing all leaves two",
           "[session]") {

@@ -1,0 +1,160 @@
+#include "core/reconstruct/papered_holes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+
+#include "core/base/parallel.h"
+#include "core/base/symmetric_eigen.h"
+#include "core/finish/point_grid.h"
+#include "core/finish/unsupported_faces.h"
+#include "core/mesh/places.h"
+#include "core/reconstruct/left_out_points.h"
+
+namespace rangezip {
+namespace {
+
+/// How near a face has points that is no paper.
+constexpr SupportReach kSupport{.pixels = 0.75, .spacings = 1.5};
+/// In h: faces of one place are no farther apart.
+constexpr double kTogether = 1.0;
+/// In square h: less is left without a point by chance.
+constexpr double kMinArea = 1.0;
+/// In h: how far from the mesh a point of a wall is; how near to the faces the wall.
+constexpr double kOffMesh = 0.6;
+constexpr double kWallReach = 2.0;
+constexpr std::size_t kMinWall = 12;
+/// Of the points there.
+constexpr double kMaxWallShare = 0.5;
+/// In h: pixels of half the side hold four times that, as do those that are chosen for a cloud.
+constexpr double kMaxNoise = 0.125;
+/// In h: in which points tell the noise.
+constexpr double kNoiseRadius = 1.0;
+/// In h: how much farther than the faces without points a place reaches.
+constexpr double kBent = 1.5;
+/// In h: points farther from all such faces belong to no place.
+constexpr double kNear = 3.0;
+/// In h: what lies beyond the mesh.
+constexpr double kRegionMargin = 6.0;
+constexpr std::size_t kGrain = 256;
+
+/// Faces by their centroids.
+struct Faces {
+  std::vector<Vec3> centers;
+  std::vector<double> areas;
+};
+
+std::array<Vec3, 4> places_on(const TriangleMesh& mesh, const Triangle& face) {
+  const Vec3 &a = mesh.positions[face[0]], &b = mesh.positions[face[1]],
+             &c = mesh.positions[face[2]];
+  return {(a + b + c) / 3.0, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)};
+}
+
+Faces faces_without_points(const TriangleMesh& mesh, const PointGrid& cloud, double h) {
+  std::vector<std::uint8_t> is_bare(mesh.triangles.size(), 0);
+  parallel_for(is_bare.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      const std::array<Vec3, 4> places = places_on(mesh, mesh.triangles[f]);
+      const bool has_points = std::all_of(places.begin(), places.end(), [&](const Vec3& place) {
+        return is_supported(cloud, place, h, kSupport);
+      });
+      is_bare[f] = has_points ? 0 : 1;
+    }
+  });
+  Faces bare;
+  for (std::size_t f = 0; f < is_bare.size(); ++f) {
+    if (is_bare[f] == 0) continue;
+    const auto& [a, b, c] = mesh.triangles[f];
+    bare.centers.push_back(places_on(mesh, mesh.triangles[f])[0]);
+    bare.areas.push_back(
+        0.5 * glm::length(area_vector(mesh.positions[a], mesh.positions[b], mesh.positions[c])));
+  }
+  return bare;
+}
+
+std::vector<Vec3> points_near(std::span<const Vec3> points, const PointGrid& centers,
+                              double radius) {
+  std::vector<std::uint8_t> is_near(points.size(), 0);
+  parallel_for(points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      centers.for_each_near(points[i], radius, [&](const Vec3& offset) {
+        if (glm::dot(offset, offset) <= radius * radius) is_near[i] = 1;
+      });
+    }
+  });
+  std::vector<Vec3> near;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (is_near[i] != 0) near.push_back(points[i]);
+  }
+  return near;
+}
+
+std::vector<Vec3> points_in(const Sphere& sphere, const PointGrid& points) {
+  std::vector<Vec3> inside;
+  points.for_each_near(sphere.center, sphere.radius, [&](const Vec3& offset) {
+    if (glm::dot(offset, offset) <= sphere.radius * sphere.radius)
+      inside.push_back(sphere.center + offset);
+  });
+  return inside;
+}
+
+/// Standard deviation of the points around a place from the plane through them, model units.
+double noise_at(const Vec3& place, const PointGrid& points, double radius) {
+  constexpr double kOfPlane = 3.0;  // degrees of freedom
+  const std::vector<Vec3> around = points_in({place, radius}, points);
+  const auto count = static_cast<double>(around.size());
+  if (count <= kOfPlane) return 0.0;
+  Vec3 mean{0.0};
+  for (const Vec3& p : around)
+    mean += p / count;
+  Mat3 moments{0.0};
+  for (const Vec3& p : around)
+    moments += glm::outerProduct(p - mean, p - mean);
+  const double least = eigen_of_symmetric(moments).values[0];
+  return std::sqrt(std::max(0.0, least) / (count - kOfPlane));
+}
+
+/// Whether the points of a wall lie on a clean surface. A quarter of them tell: those at its edges
+/// lie on no plane.
+bool is_clean(const std::vector<Vec3>& wall, const PointGrid& points, double h) {
+  std::vector<double> noise;
+  for (const Vec3& p : wall)
+    noise.push_back(noise_at(p, points, kNoiseRadius * h));
+  const auto quarter = noise.begin() + static_cast<std::ptrdiff_t>(noise.size() / 4);
+  std::nth_element(noise.begin(), quarter, noise.end());
+  return *quarter <= kMaxNoise * h;
+}
+
+}  // namespace
+
+PaperedHoles find_papered_holes(std::span<const Vec3> points, const TriangleMesh& mesh,
+                                double pixel_size) {
+  if (mesh.empty() || points.empty()) return {};
+  const double h = pixel_size;
+  Box region = bounds_of(mesh);
+  region.lower -= Vec3(kRegionMargin * h);
+  region.upper += Vec3(kRegionMargin * h);
+  const Faces bare = faces_without_points(mesh, PointGrid(points, region, kSupport.pixels * h), h);
+  if (bare.centers.empty()) return {};
+  const std::vector<Vec3> near = points_near(points, PointGrid(bare.centers, region, h), kNear * h);
+  const PointGrid around(near, region, 0.5 * h);
+  const PointGrid left_out(left_out_points(near, mesh, kOffMesh * h), region, 0.5 * h);
+
+  PaperedHoles holes;
+  for (const Place& place : places_of(bare.centers, bare.areas, kTogether * h)) {
+    if (place.area < kMinArea * h * h) continue;
+    const Sphere reach{place.center, place.radius + kWallReach * h};
+    const std::vector<Vec3> wall = points_in(reach, left_out);
+    const auto most = kMaxWallShare * static_cast<double>(points_in(reach, around).size());
+    if (wall.size() < kMinWall || static_cast<double>(wall.size()) > most) continue;
+    if (is_clean(wall, around, h)) holes.places.push_back({place.center, place.radius + kBent * h});
+  }
+  std::copy_if(near.begin(), near.end(), std::back_inserter(holes.points),
+               [&](const Vec3& p) { return is_in_any(holes.places, p); });
+  return holes;
+}
+
+}  // namespace rangezip
