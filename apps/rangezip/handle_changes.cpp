@@ -14,7 +14,7 @@ std::string name_of(const ReconstructReport& report, std::size_t command) {
   if (command == report.finish_command) return "finish";
   const auto& scans = report.view_commands;
   const auto found = std::lower_bound(scans.begin(), scans.end(), command);
-  if (found == scans.end() || *found != command) return "dropping unsupported faces";
+  if (found == scans.end() || *found != command) return "erasing faces";
   return fmt::format("view {}", found - scans.begin());
 }
 

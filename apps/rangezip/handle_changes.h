@@ -10,8 +10,7 @@ namespace rangezip::app {
 
 /// A step of a run after which the mesh had more handles than before, or fewer.
 struct HandleChange {
-  std::string
-      by;  ///< "view 12" (from 0 on, as in the report), "finish", "dropping unsupported faces"
+  std::string by;  ///< "view 12" (from 0 on, as in the report), "finish", "erasing faces"
   std::ptrdiff_t handles = 0;
 };
 

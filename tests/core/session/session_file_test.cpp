@@ -96,8 +96,12 @@ TEST_CASE("a session comes back to the bit, and is written the same again", "[se
     CHECK(scan.vote == scan_read.vote);
     CHECK(same_bits(std::get<EraseRegion>(session.commands[1]).camera,
                     std::get<EraseRegion>(read.commands[1]).camera));
-    CHECK(same_bits(std::get<FillMeshHoles>(session.commands[3]).max_perimeter,
-                    std::get<FillMeshHoles>(read.commands[3]).max_perimeter));
+    const Sphere& place = std::get<ErasePlaces>(session.commands[2]).places.at(0);
+    const Sphere& place_read = std::get<ErasePlaces>(read.commands[2]).places.at(0);
+    CHECK((place.center == place_read.center));
+    CHECK(same_bits(place.radius, place_read.radius));
+    CHECK(same_bits(std::get<FillMeshHoles>(session.commands[4]).max_perimeter,
+                    std::get<FillMeshHoles>(read.commands[4]).max_perimeter));
   }
 }
 
@@ -177,7 +181,8 @@ TEST_CASE("a wrong session is refused with file, place, rule and value", "[sessi
   }
 
   const std::vector<std::pair<std::string, std::string>> commands{
-      {R"("command": "jump")", "/commands/1/command: must be one of \"scan\" \"erase\" \"smooth\""},
+      {R"("command": "jump")",
+       "/commands/1/command: must be one of \"scan\" \"erase\" \"erase_places\""},
       {R"("command": 3)", "/commands/1/command: must be one of"},
       {R"("command": "smooth", "factor": 0)",
        "/commands/1/factor: must be a number greater than 0.0 and of at most 1.0, got 0"},
