@@ -32,7 +32,8 @@ constexpr double kCoverPixel = 0.5;
 /// Rounds of views of papered holes; the second sees what the first left out, so many h away.
 constexpr int kHoleRounds = 2;
 constexpr double kLeftOutOfHole = 0.4;
-constexpr double kMinNewInHoles = 10;  ///< points that such a view must add
+constexpr double kMinNewInHoles = 30;          ///< points that such a view must add
+constexpr std::size_t kHoleSamples = 200'000;  ///< drawn to plan them: what hides a place is large
 /// In h: around a place so much more is scanned than was erased.
 constexpr double kHoleMargin = 1.0;
 /// Noise per pixel side: in finer scans steps of a pixel would be noise.
@@ -209,7 +210,8 @@ class Run {
         recipe.pixel_size = kCoverPixel * recipe_.pixel_size;
         drop_unsupported();
       }
-      const std::vector<Vec3> directions = views_of(uncovered, recipe, kMinNewPoints);
+      const std::vector<Vec3> directions =
+          views_of(uncovered, recipe, kCoverSamples, kMinNewPoints);
       if (directions.empty()) break;
       scan_into_holes(directions, recipe);
     }
@@ -250,7 +252,7 @@ class Run {
       place.radius += kHoleMargin * h;
     std::vector<Vec3> targets = holes.points;
     for (int round = 0; round < kHoleRounds && !targets.empty(); ++round) {
-      scan_into_holes(views_of(targets, recipe, kMinNewInHoles), recipe);
+      scan_into_holes(views_of(targets, recipe, kHoleSamples, kMinNewInHoles), recipe);
       targets = left_out_points(holes.points, *session_.mesh(), kLeftOutOfHole * h);
     }
     clock_.finish("papered holes");
@@ -258,9 +260,10 @@ class Run {
 
   /// Directions from which points are seen that the mesh leaves out.
   [[nodiscard]] std::vector<Vec3> views_of(const std::vector<Vec3>& targets,
-                                           const ScanRecipe& recipe, double min_new) {
+                                           const ScanRecipe& recipe, std::size_t drawn,
+                                           double min_new) {
     const ViewPlanOptions options{.max_views = kCoverViewsPerRound,
-                                  .subset = kCoverSamples,
+                                  .subset = drawn,
                                   .max_slope_cosine = kCosine75Degrees,
                                   .coverage = 1.0,
                                   .min_gain = min_new / static_cast<double>(targets.size()),
