@@ -1,6 +1,7 @@
 #include "core/finish/feature_cleanup.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
 
@@ -22,8 +23,8 @@ constexpr double kSliver = 0.2;
 constexpr double kGain = 0.02;
 constexpr double kNoArea = 0.01;
 constexpr double kHasDirection = 0.1;
-constexpr double kSliverTurn = 0.8;
-constexpr double kFoldedCosine = 0.8;  // of a face back over the one beyond it
+constexpr std::array kSliverTurns{0.8, 0.5};  // the second for what the first leaves
+constexpr double kFoldedCosine = 0.8;         // of a face back over the one beyond it
 
 class Cleaner {
  public:
@@ -41,8 +42,11 @@ class Cleaner {
   }
 
   FeatureCleanupReport remove_all_slivers() {
-    for (int i = 0; i < kSliverRounds; ++i) {
-      if (!remove_slivers()) break;
+    for (const double turn : kSliverTurns) {
+      max_turn_ = turn;
+      for (int i = 0; i < kSliverRounds; ++i) {
+        if (!remove_slivers()) break;
+      }
     }
     return report_;
   }
@@ -173,7 +177,7 @@ class Cleaner {
       const double after = sine_of_smallest_angle(to, at(p), at(q));
       const bool turns =
           !may_turn && before > kHasDirection &&
-          !has_cosine(area_vector(from, at(p), at(q)), area_vector(to, at(p), at(q)), kSliverTurn);
+          !has_cosine(area_vector(from, at(p), at(q)), area_vector(to, at(p), at(q)), max_turn_);
       smallest = turns || after <= kNoArea ? -1.0 : std::min(smallest, after);
     });
     return smallest;
@@ -184,8 +188,8 @@ class Cleaner {
     if (table_.across(c) == CornerTable::kNone) return -1.0;
     const Diamond d(table_, c);
     const DiamondAreas areas(positions_, d);
-    const bool keeps_direction = has_cosine(areas.new_a, areas.old_y, kSliverTurn) &&
-                                 has_cosine(areas.new_b, areas.old_y, kSliverTurn);
+    const bool keeps_direction = has_cosine(areas.new_a, areas.old_y, max_turn_) &&
+                                 has_cosine(areas.new_b, areas.old_y, max_turn_);
     return keeps_direction ? angle_after_flip(positions_, d) : -1.0;
   }
 
@@ -193,6 +197,7 @@ class Cleaner {
   const std::vector<Vec3>& positions_;
   const std::vector<std::uint8_t>& is_feature_;
   double h_;
+  double max_turn_ = kSliverTurns.front();  ///< cosine, of faces when slivers are removed
   FeatureCleanupReport report_;
 };
 

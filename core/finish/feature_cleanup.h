@@ -24,7 +24,7 @@ FeatureCleanupReport clean_features(CornerTable& table, const std::vector<Vec3>&
                                     const std::vector<std::uint8_t>& is_feature, double pixel_size);
 
 /// Removes triangles with an angle under 11 degrees by the collapse or flip that leaves the best
-/// angles, where no valid face turns over but those of a fin.
+/// angles, where no valid face turns by more than 60 degrees but those of a fin.
 FeatureCleanupReport remove_slivers(CornerTable& table, const std::vector<Vec3>& positions);
 
 }  // namespace rangezip
