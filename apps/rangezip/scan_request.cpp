@@ -263,6 +263,7 @@ AddScan make_scan(const Scene& scene, const ScanChoices& choices) {
   const ScanRecipe recipe{.method = choices.method,
                           .bounds = resolution.bounds,
                           .pixel_size = resolution.pixel_size,
+                          .vote_pixel_size = resolution.pixel_size,
                           .point_size = resolution.point_size,
                           .decimate = choices.decimate,
                           .has_points = scene.point_count() > 0};

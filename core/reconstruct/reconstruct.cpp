@@ -154,6 +154,7 @@ class Run {
     recipe_ = {.method = options_.method,
                .bounds = resolution.bounds,
                .pixel_size = resolution.pixel_size,
+               .vote_pixel_size = std::max(resolution.pixel_size, resolution.gap),
                .point_size = resolution.point_size,
                .gap = resolution.gap,
                .decimate = is_finished_whole ? std::nullopt : options_.decimate,
@@ -207,7 +208,7 @@ class Run {
       // Where contours lie apart every face is far from points, and none across a gap can be told.
       if (round == 0) has_narrow_gaps_ = share >= kNarrowShare && recipe_.gap == 0.0;
       if (has_narrow_gaps_) {
-        recipe.pixel_size = kCoverPixel * recipe_.pixel_size;
+        recipe.pixel_size = recipe.vote_pixel_size = kCoverPixel * recipe_.pixel_size;
         drop_unsupported();
       }
       const std::vector<Vec3> directions =

@@ -55,8 +55,7 @@ AddScan automatic_scan(const ScanRecipe& recipe, const Vec3& toward_viewer, std:
     command.scan.plane_fit = PlaneFitOptions{};
     command.scan.fill_holes = FillHolesOptions{};
     command.scan.fill_holes->reach = bridge_reach(recipe);
-    if (!recipe.one_sided)
-      command.vote = VoteOptions{.pixel_size = std::max(recipe.pixel_size, recipe.gap)};
+    if (!recipe.one_sided) command.vote = VoteOptions{.pixel_size = recipe.vote_pixel_size};
   }
   command.stitch.method = StitchMethod::clear_and_fill;
   return command;

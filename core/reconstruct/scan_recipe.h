@@ -17,6 +17,7 @@ struct ScanRecipe {
   std::vector<Sphere> places;      ///< where samples are taken, all that the image shows; empty:
                                    ///< everywhere
   double pixel_size = 0.0;         ///< model units
+  double vote_pixel_size = 0.0;    ///< model units, of the visibility vote
   int point_size = 1;              ///< pixels
   double gap = 0.0;                ///< between contours, model units; 0: no contours
   std::optional<double> decimate;  ///< tolerance of DecimateOptions
