@@ -1,8 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <span>
-
 #include "core/base/geometry.h"
 
 namespace rangezip {
@@ -19,11 +16,5 @@ struct Sphere {
 
   friend bool operator==(const Sphere&, const Sphere&) = default;
 };
-
-/// Whether one of the spheres holds the point.
-[[nodiscard]] inline bool is_in_any(std::span<const Sphere> spheres, const Vec3& point) noexcept {
-  return std::any_of(spheres.begin(), spheres.end(),
-                     [&](const Sphere& sphere) { return sphere.contains(point); });
-}
 
 }  // namespace rangezip

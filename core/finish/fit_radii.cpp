@@ -14,8 +14,6 @@
 namespace rangezip {
 namespace {
 
-using Cube = FitRadii::Cube;
-
 /// Of the window's radius.
 constexpr std::array kShares{0.5, 0.63, 0.8, 1.0, 1.25, 1.6, 2.0};
 constexpr std::size_t kCount = kShares.size();
@@ -45,31 +43,6 @@ struct Errors {
     count += other.count;
   }
 };
-
-Cube cube_of(const Vec3& place, double side) {
-  Cube cube{};
-  for (int axis = 0; axis < 3; ++axis)
-    cube[static_cast<std::size_t>(axis)] =
-        static_cast<std::int32_t>(std::floor(place[axis] / side));
-  return cube;
-}
-
-/// The number of a cube; as many as there are if it is none of them.
-std::size_t find_cube(const std::vector<Cube>& cubes, const Cube& cube) {
-  const auto found = std::lower_bound(cubes.begin(), cubes.end(), cube);
-  if (found == cubes.end() || *found != cube) return cubes.size();
-  return static_cast<std::size_t>(found - cubes.begin());
-}
-
-template <class Visit>
-void for_each_cube_around(const std::vector<Cube>& cubes, const Cube& cube, const Visit& visit) {
-  for (int offset = 0; offset < 27; ++offset) {
-    const Cube other{cube[0] + offset % 3 - 1, cube[1] + offset / 3 % 3 - 1,
-                     cube[2] + offset / 9 - 1};
-    const std::size_t number = find_cube(cubes, other);
-    if (number < cubes.size()) visit(number);
-  }
-}
 
 Shares shares_within(double radius, double pixel_size) {
   Shares shares = kShares;
@@ -146,8 +119,7 @@ ErrorsOfCubes sum_by_cubes(std::span<const Vec3> places, std::span<const Errors>
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (found[i].count > 0.0) sums.cubes.push_back(cube_of(places[i], side));
   }
-  std::sort(sums.cubes.begin(), sums.cubes.end());
-  sums.cubes.erase(std::unique(sums.cubes.begin(), sums.cubes.end()), sums.cubes.end());
+  sort_cubes(sums.cubes);
   sums.errors.resize(sums.cubes.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (found[i].count > 0.0)
@@ -199,7 +171,7 @@ double FitRadii::share_at(const Vec3& place) const {
     double w = 1.0;
     for (int axis = 0; axis < 3; ++axis) {
       const auto a = static_cast<std::size_t>(axis);
-      const double along = corner[axis] / side_ - first[a];
+      const double along = corner[axis] / side_ - static_cast<double>(first[a]);
       w *= cube[a] == first[a] ? 1.0 - along : along;
     }
     sum += w * shares_[number];

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <vector>
 
+#include "core/base/cubes.h"
 #include "core/finish/point_grid.h"
 #include "core/finish/surface_fit.h"
 #include "core/mesh/triangle_mesh.h"
@@ -13,8 +12,6 @@ namespace rangezip {
 /// How wide fits are, from place to place: a share of one radius, continuous in space.
 class FitRadii {
  public:
-  using Cube = std::array<std::int32_t, 3>;
-
   /// 1 everywhere.
   FitRadii() = default;
   /// @param side of the cubes, model units

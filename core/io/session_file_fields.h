@@ -226,7 +226,8 @@ void describe(Fields& f, EraseRegion& command) {
 template <class Fields>
 void describe(Fields& f, ErasePlaces& command) {
   auto& [places] = command;
-  f.spheres("places", places, "as [x, y, z, radius]: faces with their centroid in one go");
+  f.spheres("places", places,
+            "spheres as [x, y, z, radius]: a face with its centroid in one of them is deleted");
 }
 
 template <class Fields>

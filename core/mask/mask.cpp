@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/base/sphere_set.h"
 
 namespace rangezip {
 
@@ -49,11 +50,12 @@ Mask sample_mask(const RangeImage& image) {
 }
 
 Mask mask_of_places(const RangeImage& image, std::span<const Sphere> places) {
+  const SphereSet set(places);
   Mask mask(image.extent(), 0);
   for_each_row(image.extent().height, [&](int y) {
     for (Pixel p{0, y}; p.x < image.extent().width; ++p.x) {
       if (!image.has_sample(p)) continue;
-      mask[p] = is_in_any(places, image.position(p)) ? 1 : 0;
+      mask[p] = set.contains(image.position(p)) ? 1 : 0;
     }
   });
   return mask;

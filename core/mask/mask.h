@@ -14,7 +14,7 @@ namespace rangezip {
 /// Pixels with a sample.
 [[nodiscard]] Mask sample_mask(const RangeImage& image);
 
-/// Pixels whose sample lies in one of the places. O(pixels * places), in parallel.
+/// Pixels whose sample lies in one of the places. O(pixels), in parallel.
 [[nodiscard]] Mask mask_of_places(const RangeImage& image, std::span<const Sphere> places);
 
 /// The region of interest: pixels whose centre is inside the polygon (even-odd rule).

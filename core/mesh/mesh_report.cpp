@@ -99,8 +99,8 @@ struct Pieces {
         fans(3 * mesh.triangles.size()) {}
 
   std::vector<std::uint32_t> fans_of;   ///< fans of faces per vertex, at first one per corner
-  DisjointSets components;                 ///< of faces
-  DisjointSets fans;                       ///< of corners
+  DisjointSets components;              ///< of faces
+  DisjointSets fans;                    ///< of corners
   std::vector<std::uint32_t> boundary;  ///< corners where an edge of one face starts
 };
 
@@ -155,8 +155,8 @@ std::size_t count_if_more(std::span<const std::uint32_t> counts, std::uint32_t t
 
 /// Loops are counted as the connected pieces of the boundary, where two edges meet only inside
 /// one fan of faces. @param fans corners joined over edges; used up
-void count_loops(const TriangleMesh& mesh, std::span<const std::uint32_t> boundary, DisjointSets& fans,
-                 MeshReport& report) {
+void count_loops(const TriangleMesh& mesh, std::span<const std::uint32_t> boundary,
+                 DisjointSets& fans, MeshReport& report) {
   for (const std::uint32_t corner : boundary)
     fans.join(corner, next_corner(corner));
   std::vector<std::pair<std::uint32_t, double>> lengths;  // of one edge each, by loop

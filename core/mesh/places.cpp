@@ -1,27 +1,16 @@
 #include "core/mesh/places.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string>
 
+#include "core/base/cubes.h"
 #include "core/base/disjoint_sets.h"
 #include "core/base/error.h"
 
 namespace rangezip {
 namespace {
-
-using Cube = std::array<std::int64_t, 3>;
-
-Cube cube_of(const Vec3& point, double side) {
-  Cube cube{};
-  for (int axis = 0; axis < 3; ++axis) {
-    cube[static_cast<std::size_t>(axis)] =
-        static_cast<std::int64_t>(std::floor(point[axis] / side));
-  }
-  return cube;
-}
 
 void check(std::span<const Vec3> points, std::span<const double> areas, double reach) {
   if (!(reach > 0.0) || !std::isfinite(reach)) {
@@ -39,13 +28,9 @@ void check(std::span<const Vec3> points, std::span<const double> areas, double r
 std::vector<std::uint32_t> join_touching(const std::vector<Cube>& cubes) {
   DisjointSets sets(cubes.size());
   for (std::uint32_t i = 0; i < cubes.size(); ++i) {
-    for (int offset = 0; offset < 27; ++offset) {
-      const Cube other{cubes[i][0] + offset % 3 - 1, cubes[i][1] + offset / 3 % 3 - 1,
-                       cubes[i][2] + offset / 9 - 1};
-      const auto found = std::lower_bound(cubes.begin(), cubes.end(), other);
-      if (found != cubes.end() && *found == other)
-        sets.join(i, static_cast<std::uint32_t>(found - cubes.begin()));
-    }
+    for_each_cube_around(cubes, cubes[i], [&](std::size_t other) {
+      sets.join(i, static_cast<std::uint32_t>(other));
+    });
   }
   std::vector<std::uint32_t> number(cubes.size());
   std::uint32_t count = 0;
@@ -61,14 +46,11 @@ std::vector<std::uint32_t> numbers_of(std::span<const Vec3> points, double reach
   std::vector<Cube> cubes;
   for (const Vec3& point : points)
     cubes.push_back(cube_of(point, reach));
-  std::sort(cubes.begin(), cubes.end());
-  cubes.erase(std::unique(cubes.begin(), cubes.end()), cubes.end());
+  sort_cubes(cubes);
   const std::vector<std::uint32_t> number_of_cube = join_touching(cubes);
   std::vector<std::uint32_t> numbers;
-  for (const Vec3& point : points) {
-    const auto cube = std::lower_bound(cubes.begin(), cubes.end(), cube_of(point, reach));
-    numbers.push_back(number_of_cube[static_cast<std::size_t>(cube - cubes.begin())]);
-  }
+  for (const Vec3& point : points)
+    numbers.push_back(number_of_cube[find_cube(cubes, cube_of(point, reach))]);
   return numbers;
 }
 

@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "core/base/parallel.h"
+#include "core/base/sphere_set.h"
 #include "core/base/symmetric_eigen.h"
 #include "core/finish/point_grid.h"
 #include "core/finish/unsupported_faces.h"
@@ -152,8 +153,9 @@ PaperedHoles find_papered_holes(std::span<const Vec3> points, const TriangleMesh
     if (wall.size() < kMinWall || static_cast<double>(wall.size()) > most) continue;
     if (is_clean(wall, around, h)) holes.places.push_back({place.center, place.radius + kBent * h});
   }
+  const SphereSet set(holes.places);
   std::copy_if(near.begin(), near.end(), std::back_inserter(holes.points),
-               [&](const Vec3& p) { return is_in_any(holes.places, p); });
+               [&](const Vec3& p) { return set.contains(p); });
   return holes;
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/sphere_set.h"
 #include "core/finish/clean_topology.h"
 #include "core/mask/mask.h"
 #include "core/mesh/drawable.h"
@@ -109,9 +110,10 @@ EraseResult erase_region(TriangleMesh mesh, Rasterizer& rasterizer, const EraseR
 }
 
 EraseResult erase_places(TriangleMesh mesh, std::span<const Sphere> places) {
+  const SphereSet set(places);
   FaceFlags erased(mesh.triangles.size(), 0);
   for (std::size_t face = 0; face < erased.size(); ++face)
-    erased[face] = is_in_any(places, centroid_of(mesh, face)) ? 1 : 0;
+    erased[face] = set.contains(centroid_of(mesh, face)) ? 1 : 0;
   return without(std::move(mesh), erased);
 }
 

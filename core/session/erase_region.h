@@ -26,7 +26,7 @@ struct EraseResult {
                                        const EraseRegion& command);
 
 /// Deletes the faces with their centroid in one of the places. The mesh stays manifold, as above.
-/// O(faces * places).
+/// O(faces).
 [[nodiscard]] EraseResult erase_places(TriangleMesh mesh, std::span<const Sphere> places);
 
 }  // namespace rangezip
