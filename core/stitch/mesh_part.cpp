@@ -18,39 +18,44 @@ namespace {
 constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t kItemsPerBlock = 16384;
 
-/// A box of the image, on the grid of the stitcher.
-struct GridBox {
-  GridPoint lower{kGridLimit, kGridLimit};
-  GridPoint upper{-kGridLimit, -kGridLimit};
-
-  void add(const GridPoint& p) {
-    lower = {std::min(lower.x, p.x), std::min(lower.y, p.y)};
-    upper = {std::max(upper.x, p.x), std::max(upper.y, p.y)};
-  }
+/// A tile of the image, by its column and row.
+struct Tile {
+  std::int32_t x = 0;
+  std::int32_t y = 0;
 };
 
-GridBox grid_box_around(Pixel p, int margin) {
-  GridBox box;
-  box.add(grid_point({p.x - margin, p.y - margin}));
-  box.add(grid_point({p.x + margin, p.y + margin}));
-  return box;
-}
+/// Of a vertex without an image.
+constexpr Tile kNowhere{-1, -1};
 
-/// Marked places of the image, in tiles: any box is marked or asked for in constant time. What lies
-/// outside of the image counts to the nearest tile.
+/// A box of tiles, both ends included.
+struct TileBox {
+  Tile first;
+  Tile last;
+};
+
+/// Marked tiles of the image and of a margin around it: any box is marked or asked for in constant
+/// time. What lies farther outside counts to the outermost tiles, which nothing within the margin
+/// does, nor a face of usual size that reaches there: or all that a small image does not show would
+/// be near what touches its edge.
 class TileMask {
  public:
-  explicit TileMask(Extent image)
-      : tiles_{image.width / kTile + 1, image.height / kTile + 1},
+  TileMask(Extent image, int margin)
+      : border_(margin / kTile + 2 + kFaceTiles),
+        tiles_{image.width / kTile + 1 + 2 * border_, image.height / kTile + 1 + 2 * border_},
         sums_({tiles_.width + 1, tiles_.height + 1}, 0) {}
 
+  /// Of pixel coordinates.
+  [[nodiscard]] Tile tile_at(std::int64_t x, std::int64_t y) const {
+    return {place_along(x, tiles_.width), place_along(y, tiles_.height)};
+  }
+
   /// @pre close() has not been called
-  void mark(const GridBox& box) {
-    const Pixel first = tile_of(box.lower), last = tile_of(box.upper);
-    sums_[first] += 1;
-    sums_[{last.x + 1, first.y}] -= 1;
-    sums_[{first.x, last.y + 1}] -= 1;
-    sums_[{last.x + 1, last.y + 1}] += 1;
+  void mark(const TileBox& box) {
+    const int x = box.first.x, y = box.first.y, end_x = box.last.x + 1, end_y = box.last.y + 1;
+    sums_[{x, y}] += 1;
+    sums_[{end_x, y}] -= 1;
+    sums_[{x, end_y}] -= 1;
+    sums_[{end_x, end_y}] += 1;
   }
 
   /// Turns what mark() has noted into the number of marked tiles below and to the left of each.
@@ -66,21 +71,19 @@ class TileMask {
   }
 
   /// @pre close() has been called
-  [[nodiscard]] bool meets(const GridBox& box) const {
-    const Pixel first = tile_of(box.lower), last = tile_of(box.upper);
-    return sums_[{last.x + 1, last.y + 1}] - sums_[{first.x, last.y + 1}] -
-               sums_[{last.x + 1, first.y}] + sums_[first] >
-           0;
+  [[nodiscard]] bool meets(const TileBox& box) const {
+    const int x = box.first.x, y = box.first.y, end_x = box.last.x + 1, end_y = box.last.y + 1;
+    return sums_[{end_x, end_y}] - sums_[{x, end_y}] - sums_[{end_x, y}] + sums_[{x, y}] > 0;
   }
 
  private:
-  static constexpr int kTile = 4;  ///< pixels
+  static constexpr int kFaceTiles = 4;  ///< more than a face of usual size reaches over
+  static constexpr int kTileBits = 2;
+  static constexpr int kTile = 1 << kTileBits;  ///< pixels
 
-  [[nodiscard]] Pixel tile_of(const GridPoint& p) const {
-    return {
-        static_cast<int>(std::clamp<std::int64_t>((p.x >> kGridBits) / kTile, 0, tiles_.width - 1)),
-        static_cast<int>(
-            std::clamp<std::int64_t>((p.y >> kGridBits) / kTile, 0, tiles_.height - 1))};
+  [[nodiscard]] std::int32_t place_along(std::int64_t pixel, int tiles) const {
+    return static_cast<std::int32_t>(
+        std::clamp<std::int64_t>((pixel >> kTileBits) + border_, 0, tiles - 1));
   }
 
   /// Makes of each value the sum of those below and to the left.
@@ -94,61 +97,75 @@ class TileMask {
     }
   }
 
+  int border_;  ///< tiles on each side of the image
   Extent tiles_;
   Grid<std::int32_t> sums_;
 };
 
-/// The image of a face; none if a corner has none, which may be anywhere.
-std::optional<GridBox> box_of(const Triangle& face, const ImagePlane& image) {
-  GridBox box;
-  for (const std::uint32_t v : face) {
-    if (!image.has_image(v)) return std::nullopt;
-    box.add(image.points[v]);
-  }
+/// The tile of each vertex: all that is asked about the whole mesh, in few bytes.
+std::vector<Tile> tiles_of(const std::vector<Vec3>& positions, const View& view,
+                           const TileMask& grid) {
+  std::vector<Tile> tiles(positions.size());
+  parallel_for(positions.size(), kItemsPerBlock, [&](std::size_t begin, std::size_t end) {
+    const ImagePlane image =
+        project_to_image(std::span(positions).subspan(begin, end - begin), view);
+    for (std::size_t v = begin; v < end; ++v) {
+      const auto local = static_cast<std::uint32_t>(v - begin);
+      const GridPoint& p = image.points[local];
+      tiles[v] =
+          image.has_image(local) ? grid.tile_at(p.x >> kGridBits, p.y >> kGridBits) : kNowhere;
+    }
+  });
+  return tiles;
+}
+
+/// The box around the image of a face; none if a corner has no image: it may be anywhere.
+std::optional<TileBox> box_of(const Triangle& face, const std::vector<Tile>& tiles) {
+  const Tile a = tiles[face[0]], b = tiles[face[1]], c = tiles[face[2]];
+  const TileBox box{{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})},
+                    {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})}};
+  if (box.first.x == kNowhere.x) return std::nullopt;
   return box;
 }
 
 /// Flags of the faces that meet the mask, or may.
-std::vector<std::uint8_t> faces_that_meet(const TileMask& mask, const TriangleMesh& mesh,
-                                          const ImagePlane& image) {
-  std::vector<std::uint8_t> meets(mesh.triangles.size());
+std::vector<std::uint8_t> faces_that_meet(const TileMask& mask,
+                                          const std::vector<Triangle>& triangles,
+                                          const std::vector<Tile>& tiles) {
+  std::vector<std::uint8_t> meets(triangles.size());
   parallel_for(meets.size(), kItemsPerBlock, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
-      const std::optional<GridBox> box = box_of(mesh.triangles[f], image);
+      const std::optional<TileBox> box = box_of(triangles[f], tiles);
       meets[f] = !box || mask.meets(*box) ? 1 : 0;
     }
   });
   return meets;
 }
 
-TileMask mask_around(std::span<const Pixel> pixels, int margin, Extent image) {
-  TileMask mask(image);
-  for (const Pixel p : pixels)
-    mask.mark(grid_box_around(p, margin));
-  mask.close();
-  return mask;
-}
-
 /// What the boxes of the faces that meet `mask` cover.
-TileMask mask_of_faces_in(const TileMask& mask, const TriangleMesh& mesh, const ImagePlane& image,
-                          Extent extent) {
-  const std::vector<std::uint8_t> meets = faces_that_meet(mask, mesh, image);
-  TileMask around(extent);
+/// @param empty of the same tiles as `mask`
+TileMask mask_of_faces_in(const TileMask& mask, const std::vector<Triangle>& triangles,
+                          const std::vector<Tile>& tiles, TileMask empty) {
+  const std::vector<std::uint8_t> meets = faces_that_meet(mask, triangles, tiles);
   for (std::size_t f = 0; f < meets.size(); ++f) {
     if (meets[f] == 0) continue;
-    if (const std::optional<GridBox> box = box_of(mesh.triangles[f], image)) around.mark(*box);
+    if (const std::optional<TileBox> box = box_of(triangles[f], tiles)) empty.mark(*box);
   }
-  around.close();
-  return around;
+  empty.close();
+  return empty;
 }
 
 /// Marks the corners of the faces that the part is about; those around get one ring of faces more.
 std::vector<std::uint8_t> inner_vertices(const TriangleMesh& whole, const View& view,
                                          std::span<const Pixel> pixels, int margin) {
-  const ImagePlane image = project_to_image(whole.positions, view);
-  const TileMask near = mask_around(pixels, margin, view.extent());
-  const std::vector<std::uint8_t> meets =
-      faces_that_meet(mask_of_faces_in(near, whole, image, view.extent()), whole, image);
+  const TileMask empty(view.extent(), margin);
+  const std::vector<Tile> tiles = tiles_of(whole.positions, view, empty);
+  TileMask near = empty;
+  for (const Pixel p : pixels)
+    near.mark({near.tile_at(p.x - margin, p.y - margin), near.tile_at(p.x + margin, p.y + margin)});
+  near.close();
+  const std::vector<std::uint8_t> meets = faces_that_meet(
+      mask_of_faces_in(near, whole.triangles, tiles, empty), whole.triangles, tiles);
   std::vector<std::uint8_t> is_inner(whole.positions.size(), 0);
   for (std::size_t f = 0; f < meets.size(); ++f) {
     if (meets[f] == 0) continue;

@@ -275,6 +275,27 @@ TEST_CASE("the part around pixels far apart leaves out what lies between them", 
   }
 }
 
+TEST_CASE("the part around pixels at the edge of the image leaves out what the image does not show",
+          "[stitch]") {
+  const TriangleMesh whole = lattice({-150.3, -150.2}, 364, 364, 1.0, 20.0);
+  const View view = images::parallel_view(kExtent);
+  std::vector<Pixel> edge;
+  for (int i = 0; i < kExtent.width; ++i) {
+    edge.insert(edge.end(), {{i, 0}, {i, kExtent.height - 1}, {0, i}, {kExtent.width - 1, i}});
+  }
+  constexpr int kMargin = 3;
+  const MeshPart part = cut_out_part(whole, view, edge, kMargin);
+  // The margin, then what those faces meet, each to two tiles of 4 pixels, and a ring.
+  constexpr double kFarthest = kMargin + 4 * 4 + 2;
+  const ImagePlane image = project_to_image(part.mesh.positions, view);
+  for (const GridPoint& p : image.points) {
+    const Vec2 place = in_pixels(p);
+    CHECK(std::min(place.x, place.y) > -kFarthest);
+    CHECK(std::max(place.x, place.y) < kExtent.width + kFarthest);
+  }
+  CHECK(part.mesh.triangles.size() > std::size_t{2} * 64 * 4);
+}
+
 TEST_CASE("changes are found whatever the order of the faces", "[stitch]") {
   constexpr std::uint64_t kSeed = 11;
   INFO("seed " << kSeed);
