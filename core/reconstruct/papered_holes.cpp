@@ -30,8 +30,6 @@ constexpr double kWallReach = 2.0;
 constexpr std::size_t kMinWall = 12;
 /// Of the points there.
 constexpr double kMaxWallShare = 0.5;
-/// In h: pixels of half the side hold four times that, as do those that are chosen for a cloud.
-constexpr double kMaxNoise = 0.125;
 /// In h: in which points tell the noise.
 constexpr double kNoiseRadius = 1.0;
 /// In h: how much farther than the faces without points a place reaches.
@@ -126,7 +124,7 @@ bool is_clean(const std::vector<Vec3>& wall, const PointGrid& points, double h) 
     noise.push_back(noise_at(p, points, kNoiseRadius * h));
   const auto quarter = noise.begin() + static_cast<std::ptrdiff_t>(noise.size() / 4);
   std::nth_element(noise.begin(), quarter, noise.end());
-  return *quarter <= kMaxNoise * h;
+  return *quarter <= kMaxHoleNoise * h;
 }
 
 }  // namespace

@@ -9,6 +9,10 @@
 
 namespace rangezip {
 
+/// Of points, in h: with more, steps of a pixel would be noise in scans of half the pixel size. A
+/// pixel size that is chosen for a cloud is four times its noise, too.
+inline constexpr double kMaxHoleNoise = 0.125;
+
 /// Where scans have closed over holes of the object.
 struct PaperedHoles {
   std::vector<Sphere> places;  ///< of the faces over a hole, with what they bend around it

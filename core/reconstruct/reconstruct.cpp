@@ -36,8 +36,6 @@ constexpr double kMinNewInHoles = 30;          ///< points that such a view must
 constexpr std::size_t kHoleSamples = 200'000;  ///< drawn to plan them: what hides a place is large
 /// In h: around a place so much more is scanned than was erased.
 constexpr double kHoleMargin = 1.0;
-/// Noise per pixel side: in finer scans steps of a pixel would be noise.
-constexpr double kMaxNoise = 0.125;
 constexpr double kMinNewPoints = 40;  ///< that a view must add: fewer are a few pixels
 /// Of the samples: less is left out by noise and in the pockets of real scans, where more views
 /// make handles rather than surface.
@@ -160,7 +158,7 @@ class Run {
                .decimate = is_finished_whole ? std::nullopt : options_.decimate,
                .has_points = scene_.point_count() > 0};
     if (recipe_.has_points) recipe_.one_sided = is_open_sheet(rasterizer_, scene_points());
-    is_clean_ = resolution.noise <= kMaxNoise * recipe_.pixel_size;
+    is_clean_ = resolution.noise <= kMaxHoleNoise * recipe_.pixel_size;
     result_.report.pixel_size = recipe_.pixel_size;
     clock_.finish("resolution");
 
@@ -322,7 +320,7 @@ class Run {
   StageClock clock_;
   Session session_;
   ScanRecipe recipe_;
-  bool is_clean_ = true;          ///< enough for scans with pixels of half the side
+  bool is_clean_ = true;          ///< enough to scan papered holes again
   bool has_narrow_gaps_ = false;  ///< that the planned views did not reach
   std::vector<Vec3> samples_;     ///< points, then area samples of polygons
 };
