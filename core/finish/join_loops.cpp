@@ -287,6 +287,7 @@ class Joiner {
 JoinedLoops join_loops(TriangleMesh& mesh, const PointGrid& cloud, double pixel_size) {
   const std::vector<Strip> strips = Joiner(mesh, cloud, pixel_size).strips();
   std::vector<HoleFill> fills;
+  fills.reserve(strips.size());
   for (const Strip& strip : strips)
     fills.push_back(strip.fill);
   JoinedLoops result{.is_hindered = std::vector<std::uint8_t>(mesh.positions.size(), 0)};

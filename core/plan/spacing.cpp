@@ -224,8 +224,10 @@ TwoSheets part_along(const Vec3& normal, std::span<const Vec3> places) {
 std::vector<Vec3> own_sheet(std::span<const Vec3> places, double spacing) {
   constexpr std::size_t kNearest = 7;  // the centre and its first ring: of one sheet, mostly
   constexpr int kRounds = 4;           // both sheets tell the normal, better each time
-  const std::vector<Vec3> all(places.begin(), places.end());
-  if (all.size() <= kNearest) return all;
+  const auto copy_of = [](std::span<const Vec3> part) {
+    return std::vector<Vec3>(part.begin(), part.end());
+  };
+  if (places.size() <= kNearest) return copy_of(places);
   Mat3 scatter = scatter_of(places.first(kNearest));
   TwoSheets parted;
   for (int round = 0; round < kRounds; ++round) {
@@ -233,11 +235,10 @@ std::vector<Vec3> own_sheet(std::span<const Vec3> places, double spacing) {
     scatter = scatter_of(parted.lower()) + scatter_of(parted.upper());
   }
   const double squares = glm::dot(parted.normal, scatter * parted.normal);
-  const double spread = std::sqrt(std::max(0.0, squares) / static_cast<double>(all.size()));
-  if (parted.gap_before(parted.cut) < std::max(spacing, kSheetGap * spread)) return all;
+  const double spread = std::sqrt(std::max(0.0, squares) / static_cast<double>(places.size()));
+  if (parted.gap_before(parted.cut) < std::max(spacing, kSheetGap * spread)) return copy_of(places);
   const bool is_center_below = parted.height(parted.cut) > 0.0;
-  const std::span<const Vec3> own = is_center_below ? parted.lower() : parted.upper();
-  return {own.begin(), own.end()};
+  return copy_of(is_center_below ? parted.lower() : parted.upper());
 }
 
 /// RMS distance of a neighbourhood's places and centre from their best plane, in an unbiased

@@ -120,6 +120,7 @@ double noise_at(const Vec3& place, const PointGrid& points, double radius) {
 /// lie on no plane.
 bool is_clean(const std::vector<Vec3>& wall, const PointGrid& points, double h) {
   std::vector<double> noise;
+  noise.reserve(wall.size());
   for (const Vec3& p : wall)
     noise.push_back(noise_at(p, points, kNoiseRadius * h));
   const auto quarter = noise.begin() + static_cast<std::ptrdiff_t>(noise.size() / 4);
