@@ -29,8 +29,12 @@ constexpr double kFoldedCosine = 0.8;         // of a face back over the one bey
 class Cleaner {
  public:
   Cleaner(CornerTable& table, const std::vector<Vec3>& positions,
-          const std::vector<std::uint8_t>& is_feature, double pixel_size)
-      : table_(table), positions_(positions), is_feature_(is_feature), h_(pixel_size) {}
+          const std::vector<std::uint8_t>& is_feature, double pixel_size, const ShareField& sizes)
+      : table_(table),
+        positions_(positions),
+        is_feature_(is_feature),
+        h_(pixel_size),
+        sizes_(sizes) {}
 
   FeatureCleanupReport run() {
     for (int i = 0; i < kRounds; ++i) {
@@ -60,11 +64,11 @@ class Cleaner {
   }
 
   void collapse_short_edges() {
-    const double limit = kShortEdge * kShortEdge * h_ * h_;
     for (std::uint32_t c = 0; c < table_.corner_count(); ++c) {
       if (!table_.names_inner_edge(c)) continue;
-      const Vec3 edge = at(table_.head(c)) - at(table_.vertex(c));
-      if (glm::dot(edge, edge) > limit) continue;
+      const Vec3 &from = at(table_.vertex(c)), edge = at(table_.head(c)) - from;
+      const double limit = kShortEdge * h_ * sizes_.at(from);
+      if (glm::dot(edge, edge) > limit * limit) continue;
       for (const std::uint32_t side : {c, table_.across(c)}) {
         if (!may_collapse(side) || !keeps_shape(side)) continue;
         table_.collapse(side);
@@ -197,6 +201,7 @@ class Cleaner {
   const std::vector<Vec3>& positions_;
   const std::vector<std::uint8_t>& is_feature_;
   double h_;
+  const ShareField& sizes_;
   double max_turn_ = kSliverTurns.front();  ///< cosine, of faces when slivers are removed
   FeatureCleanupReport report_;
 };
@@ -204,14 +209,14 @@ class Cleaner {
 }  // namespace
 
 FeatureCleanupReport clean_features(CornerTable& table, const std::vector<Vec3>& positions,
-                                    const std::vector<std::uint8_t>& is_feature,
-                                    double pixel_size) {
-  return Cleaner(table, positions, is_feature, pixel_size).run();
+                                    const std::vector<std::uint8_t>& is_feature, double pixel_size,
+                                    const ShareField& sizes) {
+  return Cleaner(table, positions, is_feature, pixel_size, sizes).run();
 }
 
 FeatureCleanupReport remove_slivers(CornerTable& table, const std::vector<Vec3>& positions) {
   const std::vector<std::uint8_t> is_feature(positions.size(), 0);
-  return Cleaner(table, positions, is_feature, 0.0).remove_all_slivers();
+  return Cleaner(table, positions, is_feature, 0.0, {}).remove_all_slivers();
 }
 
 }  // namespace rangezip

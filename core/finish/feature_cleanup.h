@@ -6,6 +6,7 @@
 
 #include "core/base/geometry.h"
 #include "core/finish/corner_table.h"
+#include "core/finish/share_field.h"
 
 namespace rangezip {
 
@@ -18,10 +19,12 @@ struct FeatureCleanupReport {
 /// (never a feature vertex into another kind), turns edges between two faces so that they join
 /// feature vertices, and removes slivers by the collapse or flip that leaves the best angles.
 /// No valid face turns over but for fins, three faces around a vertex that fold over those beyond
-/// them. @param is_feature per vertex: 1 for those on a feature, 2 at a corner
-/// of it
+/// them.
+/// @param is_feature per vertex: 1 for those on a feature, 2 at a corner of it
+/// @param sizes of triangles, in h: where they are smaller, half of that counts
 FeatureCleanupReport clean_features(CornerTable& table, const std::vector<Vec3>& positions,
-                                    const std::vector<std::uint8_t>& is_feature, double pixel_size);
+                                    const std::vector<std::uint8_t>& is_feature, double pixel_size,
+                                    const ShareField& sizes = {});
 
 /// Removes triangles with an angle under 11 degrees by the collapse or flip that leaves the best
 /// angles, where no valid face turns by more than 60 degrees but those of a fin.

@@ -12,8 +12,10 @@
 #include "core/finish/extend_border.h"
 #include "core/finish/feature_cleanup.h"
 #include "core/finish/fit_faces.h"
+#include "core/finish/fit_radii.h"
 #include "core/finish/fit_vertices.h"
 #include "core/finish/fit_window.h"
+#include "core/finish/local_sizes.h"
 #include "core/finish/point_grid.h"
 #include "core/finish/remesh.h"
 #include "core/finish/repair.h"
@@ -62,6 +64,12 @@ void check(const FinishOptions& options) {
   }
 }
 
+/// How fits to the surface and its triangles are to be made.
+struct Scale {
+  FitWindow fit;     ///< as wide at each place as noise, bending and density ask for
+  ShareField sizes;  ///< of triangles
+};
+
 Box region_of(const TriangleMesh& mesh, double margin) {
   Box region = bounds_of(mesh);
   region.lower -= Vec3(margin);
@@ -94,11 +102,12 @@ bool separate(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& o
 }
 
 /// Moves vertices onto features; where something had to be cut, once more.
-void snap(TriangleMesh& mesh, const PointGrid& cloud, const FitWindow& fit,
+void snap(TriangleMesh& mesh, const PointGrid& cloud, const Scale& scale,
           const FinishOptions& options, FinishReport& report, const Progress& progress) {
   constexpr int kRounds = 2;
   for (int round = 0; round < kRounds; ++round) {
-    const SnapReport snapped = snap_features(mesh, cloud, {options.pixel_size, fit}, progress);
+    const SnapReport snapped =
+        snap_features(mesh, cloud, {options.pixel_size, scale.fit, scale.sizes}, progress);
     report.snapped_vertices = std::max(report.snapped_vertices, snapped.snapped_vertices);
     report.split_edges += snapped.split_edges;
     report.collapsed_edges += snapped.collapsed_edges;
@@ -177,15 +186,15 @@ bool is_wide_window(const FitWindow& fit, double pixel_size) {
   return fit.window.radius > kThinnedFrom * pixel_size;
 }
 
-/// How fits to the surface are to be made, as wide at each place as noise and bending ask for.
-FitWindow window_for(const TriangleMesh& mesh, const PointGrid& cloud,
-                     const FinishOptions& options) {
-  FitWindow fit = choose_fit_window(mesh, cloud, options.pixel_size);
+Scale scale_for(const TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options) {
+  const double h = options.pixel_size;
+  Scale scale{choose_fit_window(mesh, cloud, h), {}};
+  FitWindow& fit = scale.fit;
   fit.window.widest = kWidestPerGap * options.gap;
-  const bool is_even = options.gap == 0.0;  // contours tell nothing of what lies between them
-  if (is_wide_window(fit, options.pixel_size) && is_even)
-    fit.radii = local_fit_radii(mesh, cloud, fit.window, options.pixel_size);
-  return fit;
+  if (options.gap > 0.0) return scale;  // contours tell nothing of what lies between them
+  if (options.follow_density) scale.sizes = local_sizes(mesh, cloud, h, fit.noise);
+  fit.radii = is_wide_window(fit, h) ? local_fit_radii(mesh, cloud, fit.window, h) : scale.sizes;
+  return scale;
 }
 
 /// Better triangles, closer to the cloud, of a mesh that is closed and clean.
@@ -193,7 +202,8 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
              FinishReport& report, const Progress& progress) {
   const double h = options.pixel_size;
   const bool is_coarsened = is_to_coarsen(mesh, options);
-  const FitWindow fit = window_for(mesh, cloud, options);
+  const Scale scale = scale_for(mesh, cloud, options);
+  const FitWindow& fit = scale.fit;
   report.noise = fit.noise;
   report.fit_radius = fit.window.radius;
   const bool is_wide = is_wide_window(fit, h);
@@ -203,12 +213,13 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
                   {.pixel_size = h,
                    .fit = fit,
                    .triangles = is_coarsened ? 0 : options.triangles,
+                   .sizes = scale.sizes,
                    .rounds = options.relaxations},
                   report, progress);
   const bool is_dense = !is_coarsened && are_points_dense(mesh, cloud, fit.noise, h);
   if (!is_dense) fit_vertices(mesh, surface, fit, progress);
   separate(mesh, cloud, options, report, progress);
-  if (options.snap_features) snap(mesh, cloud, fit, options, report, progress);
+  if (options.snap_features) snap(mesh, cloud, scale, options, report, progress);
   mend_slivers(mesh, cloud, options, report, progress);
   if (is_dense) {
     fit_faces(mesh, cloud.points(kMostPoints * mesh.triangles.size()), {.reach = h}, progress);

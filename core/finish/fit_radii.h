@@ -1,32 +1,11 @@
 #pragma once
 
-#include <vector>
-
-#include "core/base/cubes.h"
 #include "core/finish/point_grid.h"
+#include "core/finish/share_field.h"
 #include "core/finish/surface_fit.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace rangezip {
-
-/// How wide fits are, from place to place: a share of one radius, continuous in space.
-class FitRadii {
- public:
-  /// 1 everywhere.
-  FitRadii() = default;
-  /// @param side of the cubes, model units
-  /// @param cubes sorted, without repetitions
-  /// @param shares one per cube, for its centre
-  FitRadii(double side, std::vector<Cube> cubes, std::vector<double> shares);
-
-  /// Linear between the centres of cubes; where there are none nearby, 1.
-  [[nodiscard]] double share_at(const Vec3& place) const;
-
- private:
-  double side_ = 1.0;
-  std::vector<Cube> cubes_;
-  std::vector<double> shares_;
-};
 
 /// Finds where the surface is so even that more points can be taken together than elsewhere, and
 /// where it bends so much that it must be fewer: around each place the radius, from half of the
@@ -38,7 +17,7 @@ class FitRadii {
 /// @param pixel_size h, model units
 /// @pre oriented, manifold, within about h of the cloud; the cloud is not thinned
 /// Cost: seven fits for each vertex that is asked, in parallel.
-[[nodiscard]] FitRadii local_fit_radii(const TriangleMesh& mesh, const PointGrid& cloud,
-                                       const SurfaceWindow& window, double pixel_size);
+[[nodiscard]] ShareField local_fit_radii(const TriangleMesh& mesh, const PointGrid& cloud,
+                                         const SurfaceWindow& window, double pixel_size);
 
 }  // namespace rangezip

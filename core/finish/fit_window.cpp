@@ -100,7 +100,7 @@ std::optional<double> error_of(const std::vector<Probe>& probes, const PointGrid
 
 SurfaceWindow FitWindow::at(const Vec3& place, double times) const {
   SurfaceWindow here = window;
-  here.radius *= times * radii.share_at(place);
+  here.radius *= times * radii.at(place);
   return here;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/finish/fit_radii.h"
 #include "core/finish/point_grid.h"
+#include "core/finish/share_field.h"
 #include "core/finish/surface_fit.h"
 #include "core/mesh/triangle_mesh.h"
 
@@ -11,7 +11,7 @@ namespace rangezip {
 struct FitWindow {
   SurfaceWindow window;
   double noise = 0.0;  ///< standard deviation of the points from the surface, model units
-  FitRadii radii;      ///< by how much the window is wider or narrower at a place
+  ShareField radii;    ///< by how much the window is wider or narrower at a place
 
   /// The window for fits at a place, or one with a multiple of its radius.
   [[nodiscard]] SurfaceWindow at(const Vec3& place, double times = 1.0) const;

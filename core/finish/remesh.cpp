@@ -53,11 +53,7 @@ class Remesher {
         wanted_faces_(options.triangles > 0 ? options.triangles : faces_),
         lengths_(mesh.positions.size(), 1.0),
         fits_(mesh.positions.size()) {
-    double area = 0.0;
-    for (std::uint32_t f = 0; f < table_.face_count(); ++f)
-      area += 0.5 * glm::length(face_area_vector(table_, positions_, f));
-    scale_ =
-        kEvenLength * std::sqrt(area / static_cast<double>(wanted_faces_) * 4.0 / std::sqrt(3.0));
+    choose_scale();
   }
 
   void run(RemeshReport& report, const Progress& progress) {
@@ -66,8 +62,7 @@ class Remesher {
     for (int round = 0; round < options_.rounds; ++round) {
       progress.check_stop();
       if (round + kClosingRounds < options_.rounds) {
-        if (round < kSizingRounds)
-          lengths_ = relative_edge_lengths(table_, positions_, fits_, scale_);
+        if (round < kSizingRounds) choose_lengths();
         if (is_coarse(round)) scale_ *= kFirstScale;
         report.split_edges += split_long_edges();
         report.collapsed_edges += collapse_short_edges();
@@ -99,6 +94,33 @@ class Remesher {
   }
   [[nodiscard]] double relative_length(std::uint32_t a, std::uint32_t b) const {
     return glm::length(at(b) - at(a)) / (0.5 * scale_ * (lengths_[a] + lengths_[b]));
+  }
+
+  /// As many triangles as are asked for; else as many as there are where sizes are plain, and
+  /// smaller ones elsewhere.
+  void choose_scale() {
+    double area = 0.0;  // in that of plain triangles
+    double plain_area = 0.0;
+    std::size_t plain = 0;
+    for (std::uint32_t f = 0; f < table_.face_count(); ++f) {
+      const double size = 0.5 * glm::length(face_area_vector(table_, positions_, f));
+      const double share = options_.sizes.at(at(table_.triangle(f)[0]));
+      area += size / (share * share);
+      if (share < 1.0) continue;
+      plain_area += size;
+      ++plain;
+    }
+    if (options_.triangles == 0 && plain < faces_ && plain_area > 0.0)
+      wanted_faces_ = static_cast<std::size_t>(static_cast<double>(plain) * area / plain_area);
+    scale_ =
+        kEvenLength * std::sqrt(area / static_cast<double>(wanted_faces_) * 4.0 / std::sqrt(3.0));
+  }
+
+  void choose_lengths() {
+    lengths_ = relative_edge_lengths(table_, positions_, fits_, scale_);
+    if (options_.sizes.is_one()) return;
+    for (std::size_t v = 0; v < lengths_.size(); ++v)
+      lengths_[v] *= options_.sizes.at(positions_[v]);
   }
 
   /// Edges that may neither be split nor be collapsed yet keep the number of triangles from what

@@ -14,6 +14,7 @@ struct RemeshOptions {
   FitWindow fit;              ///< of the surface
   std::size_t triangles = 0;  ///< how many there are to be, met within a few percent; 0: as many as
                               ///< there are
+  ShareField sizes;           ///< lengths of edges relative to one another, of equal bending
   int rounds = 7;             ///< fewer than three keep the number of triangles
 };
 

@@ -76,10 +76,8 @@ class Snapper {
   Snapper(TriangleMesh& mesh, const PointGrid& cloud, const SnapOptions& options)
       : positions_(mesh.positions),
         cloud_(cloud),
-        h_(options.pixel_size),
+        options_(options),
         noise2_(options.fit.noise * options.fit.noise),
-        window_{std::max(kFitRadius * h_, kFitRadiusShare * options.fit.window.radius),
-                std::max(kFitHeight * h_, options.fit.window.height), 0.0},
         table_(mesh.triangles, mesh.positions.size()),
         surfaces_(mesh.positions.size()),
         features_(mesh.positions.size()) {}
@@ -100,7 +98,8 @@ class Snapper {
     }
     for (int round = 0; round < kTidyRounds; ++round) {
       if (round > 0) report.split_edges += split_crossing_edges(is_feature);
-      const FeatureCleanupReport cleaned = clean_features(table_, positions_, is_feature, h_);
+      const FeatureCleanupReport cleaned =
+          clean_features(table_, positions_, is_feature, options_.pixel_size, options_.sizes);
       report.collapsed_edges += cleaned.collapsed_edges;
       report.flipped_edges += cleaned.flipped_edges;
       relax_features(
@@ -113,6 +112,17 @@ class Snapper {
   [[nodiscard]] std::vector<Triangle> triangles() const { return table_.triangles(); }
 
  private:
+  [[nodiscard]] double h_at(const Vec3& place) const {
+    return options_.pixel_size * options_.sizes.at(place);
+  }
+
+  [[nodiscard]] SurfaceWindow window_at(const Vec3& place) const {
+    const SurfaceWindow& demanded = options_.fit.window;
+    const double h = h_at(place);
+    return {std::max(kFitRadius * h, kFitRadiusShare * demanded.radius),
+            std::max(kFitHeight * h, demanded.height), 0.0};
+  }
+
   void fit_surfaces() {
     parallel_for(positions_.size(), kVerticesPerBlock, [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v)
@@ -122,11 +132,12 @@ class Snapper {
 
   [[nodiscard]] VertexSurface surface_at(std::uint32_t v) const {
     const Vec3 normal = vertex_normal(table_, positions_, v);
+    const double h = h_at(positions_[v]);
     const auto [fit, scatter] = measured_at(positions_[v], normal);
-    if (!fit.is_found || fit.count < kMinFitPoints) return {.residual2 = h_ * h_};
+    if (!fit.is_found || fit.count < kMinFitPoints) return {.residual2 = h * h};
     // Of pure noise, hardly a mean square is larger.
     const double most_noise = 1.0 + kSureness * std::sqrt(2.0 / (fit.count - kFitTerms));
-    const double limit = kCleanResidual * h_;
+    const double limit = kCleanResidual * h;
     return {.center = positions_[v] + fit.height * normal,
             .normal = fit.normal,
             .bending = fit.bending,
@@ -137,10 +148,11 @@ class Snapper {
 
   /// Where points are few, of a wider window.
   [[nodiscard]] MeasuredFit measured_at(const Vec3& place, const Vec3& normal) const {
+    const SurfaceWindow window = window_at(place);
     MeasuredFit measured;
     for (const double wider : kWiderWindows) {
       measured =
-          measure_surface(cloud_, place, normal, {wider * window_.radius, window_.height, 0.0});
+          measure_surface(cloud_, place, normal, {wider * window.radius, window.height, 0.0});
       if (measured.fit.is_found && measured.fit.count >= kMinFitPoints) break;
     }
     return measured;
@@ -169,7 +181,7 @@ class Snapper {
   [[nodiscard]] std::optional<Snap> snap_of(std::uint32_t v) const {
     const std::vector<FeatureSide> surfaces = clean_surfaces_around(v);
     if (surfaces.size() < kMinCleanSurfaces) return std::nullopt;
-    const double step = kStep * h_ + kSureness * std::sqrt(noise2_);
+    const double step = kStep * h_at(positions_[v]) + kSureness * std::sqrt(noise2_);
     const Surroundings around = surroundings(positions_[v], sides_of(surfaces, step));
     const FeaturePlace found = find_feature_place(around, mean_edge_at(v), surfaces_[v].residual2);
     if (found.count == 0) return std::nullopt;
@@ -181,7 +193,7 @@ class Snapper {
   }
 
   [[nodiscard]] Surroundings surroundings(const Vec3& place, std::vector<FeatureSide> sides) const {
-    return {cloud_, h_, window_.radius, noise2_, place, std::move(sides)};
+    return {cloud_, h_at(place), window_at(place).radius, noise2_, place, std::move(sides)};
   }
 
   [[nodiscard]] VertexSurface surface_of(const FeatureSide& side, const Vec3& origin,
@@ -196,7 +208,8 @@ class Snapper {
   [[nodiscard]] std::vector<FeatureSide> clean_surfaces_around(std::uint32_t v) const {
     std::vector<std::uint32_t> seen{v};
     std::vector<FeatureSide> surfaces;
-    const double per_radius2 = 1.0 / (kWeightRadius * kWeightRadius * h_ * h_);
+    const double radius = kWeightRadius * h_at(positions_[v]);
+    const double per_radius2 = 1.0 / (radius * radius);
     std::size_t begin = 0;
     for (int ring = 0; ring < kRings; ++ring) {
       const std::size_t end = seen.size();
@@ -235,7 +248,7 @@ class Snapper {
       sides.push_back(seen_from(target, surfaces_[v], 1.0));
     if (sides.empty()) return std::nullopt;
     const std::optional<Vec3> place = meeting_place(sides);
-    if (!place || glm::length(*place) > h_) return std::nullopt;
+    if (!place || glm::length(*place) > h_at(target)) return std::nullopt;
     return target + *place;
   }
 
@@ -278,9 +291,8 @@ class Snapper {
 
   std::vector<Vec3>& positions_;
   const PointGrid& cloud_;
-  double h_;
+  const SnapOptions& options_;
   double noise2_;  ///< mean square distance of points from the surface
-  SurfaceWindow window_;
   CornerTable table_;
   std::vector<VertexSurface> surfaces_;
   std::vector<Feature> features_;  ///< one a vertex; without sides except on edges

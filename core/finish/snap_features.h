@@ -12,6 +12,7 @@ namespace rangezip {
 struct SnapOptions {
   double pixel_size = 0.0;  ///< h, model units; positive
   FitWindow fit;            ///< of the cloud: its noise, and the radius that noise demands
+  ShareField sizes;         ///< of triangles, in h: where they are smaller, they take its place
 };
 
 struct SnapReport {

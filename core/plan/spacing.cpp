@@ -26,6 +26,11 @@ constexpr double kPixelsPerNoise = 4.0;  // a step of one pixel is then rarely n
 /// such a gap.
 constexpr double kSheetGap = 4.0;
 
+/// Times the median: wider spacings may be of outliers.
+constexpr double kUsual = 1.5;
+/// Of the spacing: an outlier's distance from its neighbours' plane is half of it.
+constexpr double kOnPlane = 0.25;
+
 /// Points looked at before all others, so that the search radius is small from then on.
 constexpr std::size_t kFirstLook = 20'000;
 
@@ -302,6 +307,26 @@ double gap_at(const ContourPlace& place, std::span<const Vec3> points) {
   return std::clamp(glm::length(other), gap, kUsualGaps * gap);
 }
 
+/// The spacing that so large a share of the surface does not exceed.
+double quantile_of_surface(const std::vector<double>& spacings, const std::vector<double>& noises,
+                           double median, double share) {
+  std::vector<double> on_surface;
+  double area = 0.0;
+  for (std::size_t i = 0; i < spacings.size(); ++i) {
+    const bool is_outlier = spacings[i] > kUsual * median && noises[i] > kOnPlane * spacings[i];
+    if (is_outlier) continue;
+    on_surface.push_back(spacings[i]);
+    area += spacings[i] * spacings[i];
+  }
+  std::sort(on_surface.begin(), on_surface.end());
+  double sum = 0.0;
+  for (const double spacing : on_surface) {
+    sum += spacing * spacing;
+    if (sum >= share * area) return spacing;
+  }
+  return median;
+}
+
 double quantile(std::vector<double> values, double share) {
   const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + at, values.end());
@@ -344,24 +369,38 @@ Spacing estimate_spacing(std::span<const Vec3> points) {
     noises.push_back(distance_from_plane(query));
   }
   Spacing spacing{.median = quantile(spacings, 0.5), .quantile75 = quantile(spacings, 0.75)};
+  spacing.sparse = quantile_of_surface(spacings, noises, spacing.median, 0.75);
   if (const auto contours = contour_spacing(points, queries)) spacing = *contours;
   spacing.noise = quantile(noises, 0.5);
   spacing.diagonal = robust_bounds(points).diagonal();
   return spacing;
 }
 
+namespace {
+
+/// The spacing that a pixel side for the whole cloud is chosen for.
+double wide_spacing(const Spacing& spacing) {
+  constexpr double kUneven = 2.0;
+  constexpr double kCoarsest = 4.0;  // local_sizes() are down to a quarter
+  const double usual = 0.5 * (spacing.median + spacing.quantile75);
+  if (spacing.sparse < kUneven * spacing.median) return usual;
+  return std::clamp(spacing.sparse, usual, kCoarsest * spacing.median);
+}
+
+}  // namespace
+
 double closed_sheet_pixel_size(const Spacing& spacing) {
   constexpr double kPixelsPerSpacing = 2.2;  // about five points in a pixel
   constexpr double kPixelsPerGap = 1.5;      // where gaps are wider than usual, too
-  return std::max({kPixelsPerSpacing * 0.5 * (spacing.median + spacing.quantile75),
-                   kPixelsPerNoise * spacing.noise, kPixelsPerGap * spacing.gap});
+  return std::max({kPixelsPerSpacing * wide_spacing(spacing), kPixelsPerNoise * spacing.noise,
+                   kPixelsPerGap * spacing.gap});
 }
 
 double pixel_size_from_spacing(const Spacing& spacing) {
   constexpr double kFewestPerSpacing = 1.3;  // one pixel in five stays empty, and is filled
   constexpr double kPixelsAcross = 250.0;
-  const double finest = std::max({kFewestPerSpacing * 0.5 * (spacing.median + spacing.quantile75),
-                                  kPixelsPerNoise * spacing.noise, spacing.gap});
+  const double finest = std::max(
+      {kFewestPerSpacing * wide_spacing(spacing), kPixelsPerNoise * spacing.noise, spacing.gap});
   return std::min(closed_sheet_pixel_size(spacing),
                   std::max(finest, spacing.diagonal / kPixelsAcross));
 }

@@ -13,6 +13,7 @@ namespace rangezip {
 struct Spacing {
   double median = 0.0;      ///< 1 / sqrt(density), model units
   double quantile75 = 0.0;  ///< three quarters of the cloud are at least this dense
+  double sparse = 0.0;      ///< three quarters of the surface are at least this dense
   double gap = 0.0;         ///< between contours, if the cloud is made of such; else 0
   double noise = 0.0;       ///< median distance (RMS) of points from their neighbours' plane
   double diagonal = 0.0;    ///< of robust_bounds(), model units
@@ -22,6 +23,8 @@ struct Spacing {
 /// over the cloud: d16 * sqrt(pi / 16), that is, as if those 16 filled a disc. Points at exactly
 /// one place count once, both as neighbours and as the points that are asked about. Exact
 /// neighbours by a scan over all points that asks few of the 300 per point: O(points), 30 ns each.
+/// Where points are sparse each of them stands for more of the surface: for as much as its squared
+/// spacing; one off the surface, as outliers are, stands for none.
 /// A cloud of contours, points dense along slices that are far apart, is told by neighbours that
 /// lie on a line: of more than half of those 300 the nearest five do. Its gap is the mean of median
 /// and 75 % quantile of how far the slices on both sides are, the farther one, but at most twice as
@@ -33,7 +36,9 @@ struct Spacing {
 [[nodiscard]] Spacing estimate_spacing(std::span<const Vec3> points);
 
 /// The pixel side at which a cloud's sheet has hardly a gap: 2.2 times the mean of median and 75 %
-/// spacing, at least 4 noise, and at least 1.5 gaps between contours.
+/// spacing, at least 4 noise, and at least 1.5 gaps between contours. Where a quarter of the
+/// surface or more is over twice as sparse as the median, its spacing counts, up to four times as
+/// much: finer scans of the rest are made later (core/finish/local_sizes.h).
 [[nodiscard]] double closed_sheet_pixel_size(const Spacing& spacing);
 
 /// The pixel side for the scans of a cloud: that of the closed sheet, but down to 1.3 spacings

@@ -14,6 +14,7 @@
 #include "core/plan/spacing.h"
 #include "core/plan/spread.h"
 #include "core/plan/view_planner.h"
+#include "core/reconstruct/dense_places.h"
 #include "core/reconstruct/left_out_points.h"
 #include "core/reconstruct/papered_holes.h"
 #include "core/reconstruct/resolution.h"
@@ -120,6 +121,7 @@ class Run {
     scan_planned_views();
     scan_uncovered();
     scan_fill_views();
+    rescan_dense_places();
     rescan_papered_holes();
     finish_mesh();
     check_result();
@@ -158,6 +160,7 @@ class Run {
                .decimate = is_finished_whole ? std::nullopt : options_.decimate,
                .has_points = scene_.point_count() > 0};
     if (recipe_.has_points) recipe_.one_sided = is_open_sheet(rasterizer_, scene_points());
+    noise_ = resolution.noise;
     is_clean_ = resolution.noise <= kMaxHoleNoise * recipe_.pixel_size;
     result_.report.pixel_size = recipe_.pixel_size;
     clock_.finish("resolution");
@@ -234,12 +237,44 @@ class Run {
     clock_.finish("fill views");
   }
 
+  [[nodiscard]] bool is_plain_cloud() const {
+    return scene_.triangle_count() == 0 && recipe_.gap == 0.0;
+  }
+
+  [[nodiscard]] bool may_add_views() const {
+    return !options_.views && options_.method == ReconstructMethod::automatic;
+  }
+
+  /// Whether the caller has left it to the cloud how fine the mesh is.
+  [[nodiscard]] bool follows_density() const {
+    return may_add_views() && is_plain_cloud() && !options_.pixel_size && !options_.triangles;
+  }
+
+  /// Where the cloud is denser, finer pixels [Kobbelt, Botsch 2000, Fig. 3].
+  void rescan_dense_places() {
+    if (!follows_density()) return;
+    const DensePlaces dense =
+        find_dense_places(samples_, *session_.mesh(), recipe_.pixel_size, noise_);
+    if (dense.places.empty()) return;
+    ScanRecipe recipe = recipe_;
+    recipe.pixel_size = dense.pixel_size;
+    recipe.places = dense.places;
+    const ViewPlan plan = plan_views_of(rasterizer_, samples_, dense.points, recipe.pixel_size, {},
+                                        part_of(progress_, "scan", kFillShare, kFillShare));
+    for (const Vec3& direction : plan.directions) {
+      if (recipe_.one_sided && !(glm::dot(direction, result_.report.views[0]) > 0.0)) continue;
+      const auto view = static_cast<std::uint32_t>(result_.report.views.size());
+      apply(planned_scan(recipe, direction, view),
+            part_of(progress_, "scan", kFillShare, kFinishShare));
+      result_.report.views.push_back(direction);
+    }
+    clock_.finish("dense places");
+  }
+
   /// Where scans have papered over holes, the mesh goes, and the places are scanned again with
   /// finer pixels. Last, since scans with the usual pixels would close the holes again.
   void rescan_papered_holes() {
-    const bool is_plain_cloud = scene_.triangle_count() == 0 && recipe_.gap == 0.0;
-    const bool may_scan = !options_.views && options_.method == ReconstructMethod::automatic;
-    if (!may_scan || !is_plain_cloud || !is_clean_) return;
+    if (!may_add_views() || !is_plain_cloud() || !is_clean_) return;
     const double h = recipe_.pixel_size;
     const PaperedHoles holes = find_papered_holes(samples_, *session_.mesh(), h);
     if (holes.places.empty()) return;
@@ -292,6 +327,7 @@ class Run {
       command.options.flat_tolerance = options_.decimate.value_or(0.0);
       command.options.gap = recipe_.gap;
       command.options.narrow_gaps = has_narrow_gaps_;
+      command.options.follow_density = follows_density();
       command.options.snap_features = recipe_.gap == 0.0;  // between contours a bend looks sharp
       apply(command, part_of(progress_, "finish", kFinishShare, kCheckShare));
     }
@@ -320,6 +356,7 @@ class Run {
   StageClock clock_;
   Session session_;
   ScanRecipe recipe_;
+  double noise_ = 0.0;            ///< of the points, model units
   bool is_clean_ = true;          ///< enough to scan papered holes again
   bool has_narrow_gaps_ = false;  ///< that the planned views did not reach
   std::vector<Vec3> samples_;     ///< points, then area samples of polygons

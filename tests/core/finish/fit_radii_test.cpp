@@ -73,10 +73,10 @@ double error_of(const PointGrid& cloud, const FitWindow& fit, double sign) {
 TEST_CASE("windows are wide where the surface is even and narrow where it is not") {
   const std::uint64_t seed = GENERATE(std::uint64_t{1}, std::uint64_t{2}, std::uint64_t{3});
   CAPTURE(seed);
-  const FitRadii radii = local_fit_radii(sheet(), noisy_sheet(seed), window(), kH);
+  const ShareField radii = local_fit_radii(sheet(), noisy_sheet(seed), window(), kH);
   for (double y = -1.0; y <= 1.0; y += 0.25) {
-    REQUIRE(radii.share_at({-1.0, y, 0.0}) > 1.2);
-    REQUIRE(radii.share_at({1.0, y, 0.0}) < 0.8);
+    REQUIRE(radii.at({-1.0, y, 0.0}) > 1.2);
+    REQUIRE(radii.at({1.0, y, 0.0}) < 0.8);
   }
 }
 
@@ -107,20 +107,10 @@ TEST_CASE("fit_covariance() says how much of the noise a narrow and a wide fit h
   REQUIRE(fit_covariance(kH, kH) == Approx(1.0));
 }
 
-TEST_CASE("shares are linear between the centres of cubes, and 1 away from them") {
-  const FitRadii radii(2.0, {{0, 0, 0}, {1, 0, 0}}, {0.5, 1.5});
-  REQUIRE(radii.share_at({1.0, 1.0, 1.0}) == Approx(0.5));
-  REQUIRE(radii.share_at({3.0, 1.0, 1.0}) == Approx(1.5));
-  REQUIRE(radii.share_at({1.5, 1.0, 1.0}) == Approx(0.75));
-  REQUIRE(radii.share_at({2.5, 1.9, 0.2}) == Approx(1.25));
-  REQUIRE(radii.share_at({20.0, 1.0, 1.0}) == 1.0);
-  REQUIRE(FitRadii().share_at({1.0, 1.0, 1.0}) == 1.0);
-}
-
 TEST_CASE("without points all windows stay") {
-  const FitRadii radii =
+  const ShareField radii =
       local_fit_radii(sheet(), PointGrid({}, {Vec3(-1.0), Vec3(1.0)}, 0.1), window(), kH);
-  REQUIRE(radii.share_at({0.5, 0.5, 0.0}) == 1.0);
+  REQUIRE(radii.at({0.5, 0.5, 0.0}) == 1.0);
 }
 
 }  // namespace

@@ -66,6 +66,26 @@ TEST_CASE("remesh brings a rough sphere back onto the sphere with better triangl
   REQUIRE(mean < fourth);
 }
 
+TEST_CASE("remesh makes triangles as much smaller as their sizes say, and no others") {
+  RoughSphere rough = rough_sphere(24, 5);
+  const std::size_t before = rough.mesh.triangles.size();
+  // Half the size where z > 0.45, which is where the next cubes are these.
+  RemeshOptions options = rough.options();
+  options.sizes =
+      ShareField(0.9, {{-1, -1, 1}, {-1, 0, 1}, {0, -1, 1}, {0, 0, 1}}, {0.5, 0.5, 0.5, 0.5});
+  const PointGrid cloud = rough.cloud();
+  remesh(rough.mesh, cloud, cloud, options);
+  double small = 0.0, plain = 0.0;
+  int smalls = 0, plains = 0;
+  for (const Triangle& t : rough.mesh.triangles) {
+    const Vec3 &a = rough.mesh.positions[t[0]], &b = rough.mesh.positions[t[1]];
+    if (a.z > 0.7) small += glm::distance(a, b), ++smalls;
+    if (a.z < 0.0) plain += glm::distance(a, b), ++plains;
+  }
+  REQUIRE(small / smalls == Approx(0.5 * plain / plains).epsilon(0.1));
+  REQUIRE(plains == Approx(0.5 * static_cast<double>(before)).epsilon(0.1));
+}
+
 TEST_CASE("remesh meets a number of triangles") {
   RoughSphere rough = rough_sphere(24, 4);
   const std::size_t before = rough.mesh.triangles.size();

@@ -45,6 +45,27 @@ TEST_CASE("estimate_spacing of a square lattice is the closed form") {
   }
 }
 
+TEST_CASE("a pixel is chosen for the sparse part of an uneven cloud, not for outliers") {
+  // A sixteenth of the points, as far apart as four others, on as much surface beside them.
+  std::vector<Vec3> points = lattice(400, 1.0);
+  for (const Vec3& p : lattice(100, 4.0))
+    points.push_back(p - Vec3(500.0, 0.0, 0.0));
+  const Spacing uneven = estimate_spacing(points);
+  const double expected = std::sqrt(5.0 * std::numbers::pi / 16.0);
+  CHECK(uneven.median == Approx(expected));
+  CHECK(uneven.quantile75 == Approx(expected));
+  CHECK(uneven.sparse == Approx(4.0 * expected));
+  CHECK(closed_sheet_pixel_size(uneven) == Approx(2.2 * 4.0 * expected));
+
+  std::vector<Vec3> with_outliers = lattice(400, 1.0);
+  shapes::Random random(7);
+  for (int i = 0; i < 3000; ++i)
+    with_outliers.push_back(400.0 * Vec3(random.unit(), random.unit(), 0.05 + random.unit()));
+  const Spacing even = estimate_spacing(with_outliers);
+  CHECK(even.sparse < 1.5 * expected);
+  CHECK(closed_sheet_pixel_size(even) == Approx(2.2 * expected).epsilon(0.05));
+}
+
 TEST_CASE("estimate_spacing is one over the root of the density of a random cloud") {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     CAPTURE(seed);

@@ -264,3 +264,56 @@ TEST_CASE("a run can be cancelled and says how far it is", "[reconstruct]") {
   CHECK_THROWS_AS(reconstruct(scene, rasterizer, {}, progress), Cancelled);
   CHECK(last < 0.6);
 }
+
+namespace {
+
+/// How far a sphere with waves on its cap is from its centre in a direction of this height.
+double wavy_radius(double z) {
+  return 1.0 + 0.01 * std::clamp(10.0 * (z - 0.6), 0.0, 1.0) * std::cos(60.0 * z);
+}
+
+/// Points of that sphere, 16 times as dense where it has waves.
+PointCloud wavy_sphere(std::uint64_t seed) {
+  shapes::Random random(seed);
+  PointCloud cloud;
+  for (int i = 0; i < 320'000; ++i) {
+    const Vec3 direction = random.direction();
+    if (direction.z > 0.55 || random.unit() < 1.0 / 16.0)
+      cloud.positions.emplace_back(wavy_radius(direction.z) * direction);
+  }
+  return cloud;
+}
+
+double mean_edge(const TriangleMesh& mesh, double lowest_z, double highest_z) {
+  double sum = 0.0;
+  int count = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]];
+    if (a.z < lowest_z || a.z > highest_z) continue;
+    sum += glm::distance(a, b);
+    ++count;
+  }
+  return sum / count;
+}
+
+}  // namespace
+
+TEST_CASE("where a cloud is 16 times as dense, the mesh shows what only these points tell") {
+  const ReconstructResult result = run(scene_of(wavy_sphere(1)));
+  check_clean(result);
+  CHECK(result.report.mesh.boundary_loops == 0);
+  CHECK(result.report.mesh.euler == 2);
+  // The waves are three pixels of the other scans long: these show hardly anything of them.
+  const double h = result.report.pixel_size;
+  CHECK(h > 0.03);
+  CHECK(mean_edge(result.mesh, 0.75, 1.0) < 0.5 * mean_edge(result.mesh, -1.0, 0.4));
+  double squares = 0.0;
+  int count = 0;
+  for (const Vec3& p : result.mesh.positions) {
+    if (p.z < 0.75) continue;
+    const double off = glm::length(p) - wavy_radius(p.z / glm::length(p));
+    squares += off * off;
+    ++count;
+  }
+  CHECK(std::sqrt(squares / count) < 0.1 * 0.01);
+}
