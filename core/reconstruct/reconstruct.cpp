@@ -36,7 +36,7 @@ constexpr double kLeftOutOfHole = 0.4;
 constexpr double kMinNewInHoles = 30;          ///< points that such a view must add
 constexpr std::size_t kHoleSamples = 200'000;  ///< drawn to plan them: what hides a place is large
 /// In h: around a place so much more is scanned than was erased.
-constexpr double kHoleMargin = 1.0;
+constexpr double kRescanMargin = 1.0;
 constexpr double kMinNewPoints = 40;  ///< that a view must add: fewer are a few pixels
 /// Of the samples: less is left out by noise and in the pockets of real scans, where more views
 /// make handles rather than surface.
@@ -215,7 +215,7 @@ class Run {
       const std::vector<Vec3> directions =
           views_of(uncovered, recipe, kCoverSamples, kMinNewPoints);
       if (directions.empty()) break;
-      scan_into_holes(directions, recipe);
+      scan_from(directions, recipe, fill_scan);
     }
     clock_.finish("uncovered");
   }
@@ -231,7 +231,7 @@ class Run {
       const std::vector<Vec3> directions =
           plan_fill_views(*session_.mesh(), kMinFillLoop * recipe_.pixel_size, kFillViewsPerRound);
       if (directions.empty()) break;
-      scan_into_holes(directions, recipe_);
+      scan_from(directions, recipe_, fill_scan);
     }
     if (has_narrow_gaps_) drop_unsupported();
     clock_.finish("fill views");
@@ -250,23 +250,22 @@ class Run {
     return may_add_views() && is_plain_cloud() && !options_.pixel_size && !options_.triangles;
   }
 
-  /// Where the cloud is denser, finer pixels [Kobbelt, Botsch 2000, Fig. 3].
+  /// Where the cloud is denser, finer pixels [Kobbelt, Botsch 2000, Fig. 3]. What scans with the
+  /// usual pixels made there goes first: it spans gaps that finer ones see through.
   void rescan_dense_places() {
     if (!follows_density()) return;
     const DensePlaces dense =
         find_dense_places(samples_, *session_.mesh(), recipe_.pixel_size, noise_);
-    if (dense.places.empty()) return;
-    ScanRecipe recipe = recipe_;
-    recipe.pixel_size = dense.pixel_size;
-    recipe.places = dense.places;
-    const ViewPlan plan = plan_views_of(rasterizer_, samples_, dense.points, recipe.pixel_size, {},
-                                        part_of(progress_, "scan", kFillShare, kFillShare));
-    for (const Vec3& direction : plan.directions) {
-      if (recipe_.one_sided && !(glm::dot(direction, result_.report.views[0]) > 0.0)) continue;
-      const auto view = static_cast<std::uint32_t>(result_.report.views.size());
-      apply(planned_scan(recipe, direction, view),
-            part_of(progress_, "scan", kFillShare, kFinishShare));
-      result_.report.views.push_back(direction);
+    if (!dense.places.empty()) {
+      const ScanRecipe recipe = erase_for_rescan(dense.places, dense.pixel_size);
+      const ViewPlan plan =
+          plan_views_of(rasterizer_, samples_, dense.points, recipe.pixel_size, {},
+                        part_of(progress_, "fill views", kFillShare, kFillShare));
+      scan_from(plan.directions, recipe, planned_scan);
+      const std::vector<Vec3> targets =
+          left_out_points(dense.points, *session_.mesh(), recipe.pixel_size);
+      if (!targets.empty())
+        scan_from(views_of(targets, recipe, kCoverSamples, kMinNewPoints), recipe, fill_scan);
     }
     clock_.finish("dense places");
   }
@@ -278,18 +277,24 @@ class Run {
     const double h = recipe_.pixel_size;
     const PaperedHoles holes = find_papered_holes(samples_, *session_.mesh(), h);
     if (holes.places.empty()) return;
-    apply(ErasePlaces{holes.places}, part_of(progress_, "fill views", kFinishShare, kFinishShare));
-    ScanRecipe recipe = recipe_;
-    recipe.pixel_size = kCoverPixel * h;
-    recipe.places = holes.places;
-    for (Sphere& place : recipe.places)
-      place.radius += kHoleMargin * h;
+    const ScanRecipe recipe = erase_for_rescan(holes.places, kCoverPixel * h);
     std::vector<Vec3> targets = holes.points;
     for (int round = 0; round < kHoleRounds && !targets.empty(); ++round) {
-      scan_into_holes(views_of(targets, recipe, kHoleSamples, kMinNewInHoles), recipe);
+      scan_from(views_of(targets, recipe, kHoleSamples, kMinNewInHoles), recipe, fill_scan);
       targets = left_out_points(holes.points, *session_.mesh(), kLeftOutOfHole * h);
     }
     clock_.finish("papered holes");
+  }
+
+  /// Takes the mesh off these places. @return how they are scanned again
+  ScanRecipe erase_for_rescan(const std::vector<Sphere>& places, double pixel_size) {
+    apply(ErasePlaces{places}, part_of(progress_, "fill views", kFillShare, kFillShare));
+    ScanRecipe recipe = recipe_;
+    recipe.pixel_size = pixel_size;
+    recipe.places = places;
+    for (Sphere& place : recipe.places)
+      place.radius += kRescanMargin * recipe_.pixel_size;
+    return recipe;
   }
 
   /// Directions from which points are seen that the mesh leaves out.
@@ -307,12 +312,14 @@ class Run {
         .directions;
   }
 
+  using MakeScan = AddScan (*)(const ScanRecipe&, const Vec3&, std::uint32_t);
+
   /// Scans of an open sheet stay on the side of the first one.
-  void scan_into_holes(std::span<const Vec3> directions, const ScanRecipe& recipe) {
+  void scan_from(std::span<const Vec3> directions, const ScanRecipe& recipe, MakeScan make_scan) {
     for (const Vec3& direction : directions) {
       if (recipe_.one_sided && !(glm::dot(direction, result_.report.views[0]) > 0.0)) continue;
       const auto view = static_cast<std::uint32_t>(result_.report.views.size());
-      apply(fill_scan(recipe, direction, view),
+      apply(make_scan(recipe, direction, view),
             part_of(progress_, "fill views", kFillShare, kFinishShare));
       result_.report.views.push_back(direction);
     }
