@@ -376,33 +376,22 @@ Spacing estimate_spacing(std::span<const Vec3> points) {
   return spacing;
 }
 
-namespace {
-
-/// The spacing that a pixel side for the whole cloud is chosen for.
-double wide_spacing(const Spacing& spacing) {
-  constexpr double kUneven = 2.0;
-  constexpr double kCoarsest = 4.0;  // local_sizes() are down to a quarter
-  const double usual = 0.5 * (spacing.median + spacing.quantile75);
-  if (spacing.sparse < kUneven * spacing.median) return usual;
-  return std::clamp(spacing.sparse, usual, kCoarsest * spacing.median);
-}
-
-}  // namespace
-
 double closed_sheet_pixel_size(const Spacing& spacing) {
   constexpr double kPixelsPerSpacing = 2.2;  // about five points in a pixel
   constexpr double kPixelsPerGap = 1.5;      // where gaps are wider than usual, too
-  return std::max({kPixelsPerSpacing * wide_spacing(spacing), kPixelsPerNoise * spacing.noise,
-                   kPixelsPerGap * spacing.gap});
+  return std::max({kPixelsPerSpacing * 0.5 * (spacing.median + spacing.quantile75),
+                   kPixelsPerNoise * spacing.noise, kPixelsPerGap * spacing.gap});
 }
 
 double pixel_size_from_spacing(const Spacing& spacing) {
   constexpr double kFewestPerSpacing = 1.3;  // one pixel in five stays empty, and is filled
   constexpr double kPixelsAcross = 250.0;
-  const double finest = std::max(
-      {kFewestPerSpacing * wide_spacing(spacing), kPixelsPerNoise * spacing.noise, spacing.gap});
-  return std::min(closed_sheet_pixel_size(spacing),
-                  std::max(finest, spacing.diagonal / kPixelsAcross));
+  constexpr double kCoarsest = 4.0;  // local_sizes() are down to a quarter
+  const double closed = closed_sheet_pixel_size(spacing);
+  const double finest = std::max({kFewestPerSpacing * 0.5 * (spacing.median + spacing.quantile75),
+                                  kPixelsPerNoise * spacing.noise, spacing.gap});
+  const double usual = std::min(closed, std::max(finest, spacing.diagonal / kPixelsAcross));
+  return std::clamp(kFewestPerSpacing * spacing.sparse, usual, kCoarsest * usual);
 }
 
 }  // namespace rangezip

@@ -36,14 +36,14 @@ struct Spacing {
 [[nodiscard]] Spacing estimate_spacing(std::span<const Vec3> points);
 
 /// The pixel side at which a cloud's sheet has hardly a gap: 2.2 times the mean of median and 75 %
-/// spacing, at least 4 noise, and at least 1.5 gaps between contours. Where a quarter of the
-/// surface or more is over twice as sparse as the median, its spacing counts, up to four times as
-/// much: finer scans of the rest are made later (core/finish/local_sizes.h).
+/// spacing, at least 4 noise, and at least 1.5 gaps between contours.
 [[nodiscard]] double closed_sheet_pixel_size(const Spacing& spacing);
 
 /// The pixel side for the scans of a cloud: that of the closed sheet, but down to 1.3 spacings
 /// where the cloud is so sparse that fewer than 250 pixels would lie across it; shape is worth more
-/// then than closed pixels. A pixel is no smaller than the gap between contours.
+/// then than closed pixels. A pixel is no smaller than the gap between contours. Nor, up to four
+/// times as much, than 1.3 spacings of the sparse quarter of the surface: of the rest finer scans
+/// are made later (core/finish/local_sizes.h).
 [[nodiscard]] double pixel_size_from_spacing(const Spacing& spacing);
 
 /// A box that leaves out far outliers. Per axis the middle half of the cloud is widened on both

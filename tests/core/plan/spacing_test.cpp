@@ -55,7 +55,7 @@ TEST_CASE("a pixel is chosen for the sparse part of an uneven cloud, not for out
   CHECK(uneven.median == Approx(expected));
   CHECK(uneven.quantile75 == Approx(expected));
   CHECK(uneven.sparse == Approx(4.0 * expected));
-  CHECK(closed_sheet_pixel_size(uneven) == Approx(2.2 * 4.0 * expected));
+  CHECK(pixel_size_from_spacing(uneven) == Approx(1.3 * 4.0 * expected));
 
   std::vector<Vec3> with_outliers = lattice(400, 1.0);
   shapes::Random random(7);
@@ -63,7 +63,7 @@ TEST_CASE("a pixel is chosen for the sparse part of an uneven cloud, not for out
     with_outliers.push_back(400.0 * Vec3(random.unit(), random.unit(), 0.05 + random.unit()));
   const Spacing even = estimate_spacing(with_outliers);
   CHECK(even.sparse < 1.5 * expected);
-  CHECK(closed_sheet_pixel_size(even) == Approx(2.2 * expected).epsilon(0.05));
+  CHECK(pixel_size_from_spacing(even) == Approx(2.2 * expected).epsilon(0.05));
 }
 
 TEST_CASE("estimate_spacing is one over the root of the density of a random cloud") {
