@@ -171,7 +171,8 @@ CASES = [
     made('spheres 3', CLOSED, [Bound('components', '==', 2), Bound('euler', '==', 4)]),
     body('noisy 0.05', 1, RIGHT_SIDE_OUT), body('noisy 0.1', 1, RIGHT_SIDE_OUT), body('noisy 0.2', 1, RIGHT_SIDE_OUT),
     body('contours', 1),
-    body('density', 0), body('density-bumps', 0, [Bound('dense_over_sparse', '<=', 0.5)]),
+    body('density', 0, [Bound('accuracy_rms', '<=', 0.0001, True)]),
+    body('density-bumps', 0, [Bound('dense_over_sparse', '<=', 0.5), Bound('accuracy_rms', '<=', 0.00015, True)]),
     made('fingers', [Bound('components', '==', 1), Bound('false_handles', '==', 0)]),
 ]
 

@@ -41,9 +41,9 @@ struct Spacing {
 
 /// The pixel side for the scans of a cloud: that of the closed sheet, but down to 1.3 spacings
 /// where the cloud is so sparse that fewer than 250 pixels would lie across it; shape is worth more
-/// then than closed pixels. A pixel is no smaller than the gap between contours. Nor, up to four
-/// times as much, than 1.3 spacings of the sparse quarter of the surface: of the rest finer scans
-/// are made later (core/finish/local_sizes.h).
+/// then than closed pixels. A pixel is no smaller than the gap between contours. Where a quarter of
+/// the surface is over twice as sparse as the median, it is no smaller than 1.3 spacings there, up
+/// to four times as much: of the rest finer scans are made later (core/finish/local_sizes.h).
 [[nodiscard]] double pixel_size_from_spacing(const Spacing& spacing);
 
 /// A box that leaves out far outliers. Per axis the middle half of the cloud is widened on both
