@@ -66,8 +66,9 @@ void check(const FinishOptions& options) {
 
 /// How fits to the surface and its triangles are to be made.
 struct Scale {
-  FitWindow fit;     ///< as wide at each place as noise, bending and density ask for
-  ShareField sizes;  ///< of triangles
+  FitWindow fit;      ///< as wide at each place as noise, bending and density ask for
+  ShareField sizes;   ///< of triangles
+  double edge = 0.0;  ///< length of edges, model units, where the size is one
 };
 
 Box region_of(const TriangleMesh& mesh, double margin) {
@@ -106,8 +107,8 @@ void snap(TriangleMesh& mesh, const PointGrid& cloud, const Scale& scale,
           const FinishOptions& options, FinishReport& report, const Progress& progress) {
   constexpr int kRounds = 2;
   for (int round = 0; round < kRounds; ++round) {
-    const SnapReport snapped =
-        snap_features(mesh, cloud, {options.pixel_size, scale.fit, scale.sizes}, progress);
+    const SnapReport snapped = snap_features(
+        mesh, cloud, {options.pixel_size, scale.fit, scale.sizes, scale.edge}, progress);
     report.snapped_vertices = std::max(report.snapped_vertices, snapped.snapped_vertices);
     report.split_edges += snapped.split_edges;
     report.collapsed_edges += snapped.collapsed_edges;
@@ -171,15 +172,17 @@ void extend(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& opt
   report.dropped_faces += extended.dropped.faces;
 }
 
-/// Well-shaped triangles on the surface of the cloud.
-void remesh_on_cloud(TriangleMesh& mesh, const PointGrid& cloud, const PointGrid& surface,
-                     const RemeshOptions& options, FinishReport& report, const Progress& progress) {
+/// Well-shaped triangles on the surface of the cloud. @return RemeshReport::edge
+double remesh_on_cloud(TriangleMesh& mesh, const PointGrid& cloud, const PointGrid& surface,
+                       const RemeshOptions& options, FinishReport& report,
+                       const Progress& progress) {
   const RemeshReport remeshed = remesh(mesh, cloud, surface, options, progress);
   report.split_edges = remeshed.split_edges;
   report.collapsed_edges = remeshed.collapsed_edges;
   report.flipped_edges = remeshed.flipped_edges;
   report.flattened_spikes = remeshed.flattened_spikes;
   remove_unused_vertices(mesh);
+  return remeshed.edge;
 }
 
 bool is_wide_window(const FitWindow& fit, double pixel_size) {
@@ -188,7 +191,7 @@ bool is_wide_window(const FitWindow& fit, double pixel_size) {
 
 Scale scale_for(const TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options) {
   const double h = options.pixel_size;
-  Scale scale{choose_fit_window(mesh, cloud, h), {}};
+  Scale scale{.fit = choose_fit_window(mesh, cloud, h)};
   FitWindow& fit = scale.fit;
   fit.window.widest = kWidestPerGap * options.gap;
   if (options.gap > 0.0) return scale;  // contours tell nothing of what lies between them
@@ -202,20 +205,20 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
              FinishReport& report, const Progress& progress) {
   const double h = options.pixel_size;
   const bool is_coarsened = is_to_coarsen(mesh, options);
-  const Scale scale = scale_for(mesh, cloud, options);
+  Scale scale = scale_for(mesh, cloud, options);
   const FitWindow& fit = scale.fit;
   report.noise = fit.noise;
   report.fit_radius = fit.window.radius;
   const bool is_wide = is_wide_window(fit, h);
   const PointGrid thinned = is_wide ? cloud.thinned(kThinnedParts) : PointGrid({}, Box{}, h);
   const PointGrid& surface = is_wide ? thinned : cloud;
-  remesh_on_cloud(mesh, cloud, surface,
-                  {.pixel_size = h,
-                   .fit = fit,
-                   .triangles = is_coarsened ? 0 : options.triangles,
-                   .sizes = scale.sizes,
-                   .rounds = options.relaxations},
-                  report, progress);
+  scale.edge = remesh_on_cloud(mesh, cloud, surface,
+                               {.pixel_size = h,
+                                .fit = fit,
+                                .triangles = is_coarsened ? 0 : options.triangles,
+                                .sizes = scale.sizes,
+                                .rounds = options.relaxations},
+                               report, progress);
   const bool is_dense = !is_coarsened && are_points_dense(mesh, cloud, fit.noise, h);
   if (!is_dense) fit_vertices(mesh, surface, fit, progress);
   separate(mesh, cloud, options, report, progress);

@@ -23,6 +23,8 @@ struct RemeshReport {
   std::size_t collapsed_edges = 0;
   std::size_t flipped_edges = 0;
   std::size_t flattened_spikes = 0;
+  double edge = 0.0;  ///< length of edges, on average over bending, where the size is one; model
+                      ///< units
 };
 
 /// Covers the surface with well-shaped triangles, smaller where it bends, whose vertices lie on the

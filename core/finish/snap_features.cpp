@@ -37,6 +37,7 @@ constexpr double kStep = 0.3;          // beyond the noise: surfaces so far apar
 constexpr double kSplitReach = 0.7;    // of an edge: it crosses the feature so near its middle
 constexpr double kFaceCosine = 0.5;    // between a face and its side
 constexpr int kTidyRounds = 3;
+constexpr double kPixelPerEdge = 0.9;  // two triangles a pixel have edges of 1.1 of its side
 constexpr std::size_t kVerticesPerBlock = 256;
 
 /// The surface around a vertex.
@@ -99,7 +100,7 @@ class Snapper {
     for (int round = 0; round < kTidyRounds; ++round) {
       if (round > 0) report.split_edges += split_crossing_edges(is_feature);
       const FeatureCleanupReport cleaned =
-          clean_features(table_, positions_, is_feature, options_.pixel_size, options_.sizes);
+          clean_features(table_, positions_, is_feature, pixel_of_edges(), options_.sizes);
       report.collapsed_edges += cleaned.collapsed_edges;
       report.flipped_edges += cleaned.flipped_edges;
       relax_features(
@@ -114,6 +115,12 @@ class Snapper {
  private:
   [[nodiscard]] double h_at(const Vec3& place) const {
     return options_.pixel_size * options_.sizes.at(place);
+  }
+
+  /// h, or what it would be for scans that give triangles as small as these.
+  [[nodiscard]] double pixel_of_edges() const {
+    const double h = options_.pixel_size;
+    return options_.edge > 0.0 ? std::min(h, kPixelPerEdge * options_.edge) : h;
   }
 
   [[nodiscard]] SurfaceWindow window_at(const Vec3& place) const {

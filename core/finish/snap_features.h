@@ -13,6 +13,8 @@ struct SnapOptions {
   double pixel_size = 0.0;  ///< h, model units; positive
   FitWindow fit;            ///< of the cloud: its noise, and the radius that noise demands
   ShareField sizes;         ///< of triangles, in h: where they are smaller, they take its place
+  double edge = 0.0;        ///< mean length, model units, where the size is one: if it is shorter
+                            ///< than scans make it, so is what counts as too short; 0: it is not
 };
 
 struct SnapReport {

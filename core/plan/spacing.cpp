@@ -383,16 +383,20 @@ double closed_sheet_pixel_size(const Spacing& spacing) {
                    kPixelsPerNoise * spacing.noise, kPixelsPerGap * spacing.gap});
 }
 
+bool is_uneven(const Spacing& spacing) {
+  constexpr double kUneven = 2.0;
+  return spacing.sparse >= kUneven * spacing.median;
+}
+
 double pixel_size_from_spacing(const Spacing& spacing) {
   constexpr double kFewestPerSpacing = 1.3;  // one pixel in five stays empty, and is filled
   constexpr double kPixelsAcross = 250.0;
-  constexpr double kUneven = 2.0;
   constexpr double kCoarsest = 4.0;  // local_sizes() are down to a quarter
   const double closed = closed_sheet_pixel_size(spacing);
   const double finest = std::max({kFewestPerSpacing * 0.5 * (spacing.median + spacing.quantile75),
                                   kPixelsPerNoise * spacing.noise, spacing.gap});
   const double usual = std::min(closed, std::max(finest, spacing.diagonal / kPixelsAcross));
-  if (spacing.sparse < kUneven * spacing.median) return usual;
+  if (!is_uneven(spacing)) return usual;
   return std::clamp(kFewestPerSpacing * spacing.sparse, usual, kCoarsest * usual);
 }
 

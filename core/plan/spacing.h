@@ -39,11 +39,14 @@ struct Spacing {
 /// spacing, at least 4 noise, and at least 1.5 gaps between contours.
 [[nodiscard]] double closed_sheet_pixel_size(const Spacing& spacing);
 
+/// Whether a quarter of the surface or more is over twice as sparse as the median.
+[[nodiscard]] bool is_uneven(const Spacing& spacing);
+
 /// The pixel side for the scans of a cloud: that of the closed sheet, but down to 1.3 spacings
 /// where the cloud is so sparse that fewer than 250 pixels would lie across it; shape is worth more
-/// then than closed pixels. A pixel is no smaller than the gap between contours. Where a quarter of
-/// the surface is over twice as sparse as the median, it is no smaller than 1.3 spacings there, up
-/// to four times as much: of the rest finer scans are made later (core/finish/local_sizes.h).
+/// then than closed pixels. A pixel is no smaller than the gap between contours. Of an uneven cloud
+/// it is no smaller than 1.3 spacings of the sparse part, up to four times as much: of the rest
+/// finer scans are made later (core/finish/local_sizes.h).
 [[nodiscard]] double pixel_size_from_spacing(const Spacing& spacing);
 
 /// A box that leaves out far outliers. Per axis the middle half of the cloud is widened on both

@@ -161,6 +161,7 @@ class Run {
                .has_points = scene_.point_count() > 0};
     if (recipe_.has_points) recipe_.one_sided = is_open_sheet(rasterizer_, scene_points());
     noise_ = resolution.noise;
+    is_of_cloud_ = resolution.is_of_cloud;
     is_clean_ = resolution.noise <= kMaxHoleNoise * recipe_.pixel_size;
     result_.report.pixel_size = recipe_.pixel_size;
     clock_.finish("resolution");
@@ -245,10 +246,8 @@ class Run {
     return !options_.views && options_.method == ReconstructMethod::automatic;
   }
 
-  /// Whether the caller has left it to the cloud how fine the mesh is.
-  [[nodiscard]] bool follows_density() const {
-    return may_add_views() && is_plain_cloud() && !options_.pixel_size && !options_.triangles;
-  }
+  /// Whether it is left to the cloud how fine scans are.
+  [[nodiscard]] bool follows_density() const { return is_of_cloud_ && is_plain_cloud(); }
 
   /// Where the cloud is denser, finer pixels [Kobbelt, Botsch 2000, Fig. 3]. What scans with the
   /// usual pixels made there goes first: it spans gaps that finer ones see through.
@@ -258,13 +257,15 @@ class Run {
         find_dense_places(samples_, *session_.mesh(), recipe_.pixel_size, noise_);
     if (!dense.places.empty()) {
       const ScanRecipe recipe = erase_for_rescan(dense.places, dense.pixel_size);
+      ViewPlanOptions plan_options;
+      if (options_.views) plan_options.max_views = *options_.views;
       const ViewPlan plan =
-          plan_views_of(rasterizer_, samples_, dense.points, recipe.pixel_size, {},
+          plan_views_of(rasterizer_, samples_, dense.points, recipe.pixel_size, plan_options,
                         part_of(progress_, "fill views", kFillShare, kFillShare));
       scan_from(plan.directions, recipe, planned_scan);
       const std::vector<Vec3> targets =
           left_out_points(dense.points, *session_.mesh(), recipe.pixel_size);
-      if (!targets.empty())
+      if (may_add_views() && !targets.empty())
         scan_from(views_of(targets, recipe, kCoverSamples, kMinNewPoints), recipe, fill_scan);
     }
     clock_.finish("dense places");
@@ -364,6 +365,7 @@ class Run {
   Session session_;
   ScanRecipe recipe_;
   double noise_ = 0.0;            ///< of the points, model units
+  bool is_of_cloud_ = false;      ///< what the pixels of the planned scans are
   bool is_clean_ = true;          ///< enough to scan papered holes again
   bool has_narrow_gaps_ = false;  ///< that the planned views did not reach
   std::vector<Vec3> samples_;     ///< points, then area samples of polygons

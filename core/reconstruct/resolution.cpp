@@ -67,11 +67,19 @@ Resolution choose_resolution(const Scene& scene, std::span<const Vec3> samples,
     if (triangles) {
       const double demanded = pixel_size_for(area, *triangles);
       const double finest = is_remeshed ? demanded / kFinerThanMesh : demanded;
-      chosen.pixel_size = std::min(demanded, std::max(chosen.pixel_size, finest));
+      const double own = chosen.pixel_size;
+      chosen.pixel_size = std::min(demanded, std::max(own, finest));
+      // Finer ones would show nothing where points are sparse, and the median does not tell the
+      // area.
+      if (has_points && is_uneven(*spacing)) chosen.pixel_size = std::max(chosen.pixel_size, own);
     }
   }
-  if (!pixel_size)
-    chosen.pixel_size = std::max(chosen.pixel_size, finest_pixel_size(chosen.bounds));
+  if (!pixel_size) {
+    const double finest = finest_pixel_size(chosen.bounds);
+    chosen.pixel_size = std::max(chosen.pixel_size, finest);
+    chosen.is_of_cloud =
+        has_points && chosen.pixel_size <= std::max(pixel_size_from_spacing(*spacing), finest);
+  }
 
   if (has_points) {
     chosen.point_size = point_size_for(*spacing, chosen.pixel_size);

@@ -11,18 +11,20 @@ namespace rangezip {
 
 /// What an automatic run decides about the size of things before it scans.
 struct Resolution {
-  double pixel_size = 0.0;  ///< model units
-  int point_size = 1;       ///< pixels: larger than 1 where the pixel is finer than the spacing
-  double noise = 0.0;       ///< of points along the normal, model units
-  double gap = 0.0;         ///< between contours, model units; 0: the points are spread evenly
-  Box bounds;               ///< of the object, without far outliers
+  double pixel_size = 0.0;   ///< model units
+  bool is_of_cloud = false;  ///< no coarser than the points ask for, and not given
+  int point_size = 1;        ///< pixels: larger than 1 where the pixel is finer than the spacing
+  double noise = 0.0;        ///< of points along the normal, model units
+  double gap = 0.0;          ///< between contours, model units; 0: the points are spread evenly
+  Box bounds;                ///< of the object, without far outliers
 };
 
 /// Chooses the pixel side: as given; else from the point spacing (pixel_size_from_spacing()), or
 /// for polygons only so that they get about 100 K triangles; finer if `triangles` are more than
 /// that gives. For fewer, the scans stay finer than the mesh that is made of them, down to an
 /// eighth of the pixel side, if that mesh `is_remeshed`; else the pixel is as large as the
-/// triangles demand. Never so fine that an image outgrows the rasterizer.
+/// triangles demand. Of an uneven cloud never finer than its own. Never so fine that an image
+/// outgrows the rasterizer.
 /// @param samples the points of the scene, in its order, then area samples of its polygons
 /// @throws InvalidArgument for a pixel side or a target that is not positive.
 [[nodiscard]] Resolution choose_resolution(const Scene& scene, std::span<const Vec3> samples,

@@ -317,3 +317,13 @@ TEST_CASE("where a cloud is 16 times as dense, the mesh shows what only these po
   }
   CHECK(std::sqrt(squares / count) < 0.1 * 0.01);
 }
+
+TEST_CASE("an uneven cloud loses nothing of its sparse part for the sake of many triangles") {
+  const std::size_t wanted = GENERATE(20'000U, 150'000U);
+  CAPTURE(wanted);
+  const ReconstructResult result = run(scene_of(wavy_sphere(2)), {.triangles = wanted});
+  check_clean(result);
+  CHECK(result.report.mesh.boundary_loops == 0);
+  CHECK(static_cast<double>(result.mesh.triangles.size()) ==
+        Approx(static_cast<double>(wanted)).epsilon(0.05));
+}
