@@ -18,7 +18,7 @@ import boundary_check
 import run
 
 CASES = ['igea 400 K', 'igea 400 K, noise 0.1 %', 'fandisk 100 K', 'torus', 'plate 2', 'shell 3', 'spheres 2',
-         'pocket 2', 'noisy 0.2', 'fingers']
+         'pocket 2', 'noisy 0.2', 'density-bumps', 'fingers']
 SHOWN = ['cpu_seconds', 'peak_megabytes', 'faces', 'components', 'boundary_edges', 'nonmanifold_edges',
          'misoriented_edges', 'self_intersecting_pairs', 'genus', 'accuracy_rms', 'accuracy_max', 'completeness_rms',
          'completeness_max', 'normal_dev_mean', 'min_angle_lt30']

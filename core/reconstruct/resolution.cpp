@@ -38,6 +38,24 @@ double finest_pixel_size(const Box& bounds) {
   return bounds.diagonal() / static_cast<double>(kMaxRasterExtent - kImageMargin);
 }
 
+/// What the points or polygons ask for, or the number of triangles.
+/// @param spacing absent if there are polygons only
+double demanded_pixel_size(const Scene& scene, std::span<const Vec3> samples,
+                           const std::optional<Spacing>& spacing,
+                           std::optional<std::size_t> triangles, bool is_remeshed) {
+  const double area = spacing
+                          ? static_cast<double>(samples.size()) * spacing->median * spacing->median
+                          : triangle_area(scene);
+  const double own =
+      spacing ? pixel_size_from_spacing(*spacing) : pixel_size_for(area, kTrianglesOfPolygons);
+  if (!triangles) return own;
+  const double demanded = pixel_size_for(area, *triangles);
+  const double finest = is_remeshed ? demanded / kFinerThanMesh : demanded;
+  const double suitable = std::min(demanded, std::max(own, finest));
+  // Finer pixels would show nothing where points are sparse, and the median tells no area then.
+  return spacing && is_uneven(*spacing) ? std::max(suitable, own) : suitable;
+}
+
 }  // namespace
 
 Resolution choose_resolution(const Scene& scene, std::span<const Vec3> samples,
@@ -59,26 +77,11 @@ Resolution choose_resolution(const Scene& scene, std::span<const Vec3> samples,
   if (pixel_size) {
     chosen.pixel_size = *pixel_size;
   } else {
-    const double area =
-        has_points ? static_cast<double>(samples.size()) * spacing->median * spacing->median
-                   : triangle_area(scene);
-    chosen.pixel_size =
-        has_points ? pixel_size_from_spacing(*spacing) : pixel_size_for(area, kTrianglesOfPolygons);
-    if (triangles) {
-      const double demanded = pixel_size_for(area, *triangles);
-      const double finest = is_remeshed ? demanded / kFinerThanMesh : demanded;
-      const double own = chosen.pixel_size;
-      chosen.pixel_size = std::min(demanded, std::max(own, finest));
-      // Finer ones would show nothing where points are sparse, and the median does not tell the
-      // area.
-      if (has_points && is_uneven(*spacing)) chosen.pixel_size = std::max(chosen.pixel_size, own);
-    }
-  }
-  if (!pixel_size) {
     const double finest = finest_pixel_size(chosen.bounds);
-    chosen.pixel_size = std::max(chosen.pixel_size, finest);
+    chosen.pixel_size =
+        std::max(finest, demanded_pixel_size(scene, samples, spacing, triangles, is_remeshed));
     chosen.is_of_cloud =
-        has_points && chosen.pixel_size <= std::max(pixel_size_from_spacing(*spacing), finest);
+        spacing && chosen.pixel_size <= std::max(finest, pixel_size_from_spacing(*spacing));
   }
 
   if (has_points) {

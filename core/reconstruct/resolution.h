@@ -23,7 +23,7 @@ struct Resolution {
 /// for polygons only so that they get about 100 K triangles; finer if `triangles` are more than
 /// that gives. For fewer, the scans stay finer than the mesh that is made of them, down to an
 /// eighth of the pixel side, if that mesh `is_remeshed`; else the pixel is as large as the
-/// triangles demand. Of an uneven cloud never finer than its own. Never so fine that an image
+/// triangles demand. Of an uneven cloud it is never finer than its own. Never so fine that an image
 /// outgrows the rasterizer.
 /// @param samples the points of the scene, in its order, then area samples of its polygons
 /// @throws InvalidArgument for a pixel side or a target that is not positive.
