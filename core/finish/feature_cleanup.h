@@ -24,7 +24,7 @@ struct FeatureCleanupReport {
 /// @param sizes of triangles, in h: where they are smaller, half of that counts
 FeatureCleanupReport clean_features(CornerTable& table, const std::vector<Vec3>& positions,
                                     const std::vector<std::uint8_t>& is_feature, double pixel_size,
-                                    const ShareField& sizes = {});
+                                    const ShareField& sizes);
 
 /// Removes triangles with an angle under 11 degrees by the collapse or flip that leaves the best
 /// angles, where no valid face turns by more than 60 degrees but those of a fin.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 
 #include "core/base/cubes.h"
 #include "core/base/sphere_set.h"
@@ -12,30 +11,21 @@
 namespace rangezip {
 namespace {
 
-constexpr std::int64_t kAlong = 4;      ///< cubes along the side of what becomes a sphere
+constexpr double kAlong = 4.0;          ///< cubes along the side of what becomes a sphere
 constexpr std::size_t kMinCubes = 8;    ///< fewer are hardly a patch
 constexpr double kHalfDiagonal = 0.87;  ///< of a cube of side 1
 
-std::int64_t divided(std::int64_t a, std::int64_t b) {
-  return a >= 0 ? a / b : -((b - 1 - a) / b);
-}
-
 /// The spheres around blocks of cubes.
 std::vector<Sphere> spheres_around(const std::vector<Cube>& cubes, double side) {
+  const auto center_of = [&](const Cube& c) { return side * (Vec3(c[0], c[1], c[2]) + Vec3(0.5)); };
   std::vector<Cube> blocks;
   blocks.reserve(cubes.size());
   for (const Cube& c : cubes)
-    blocks.push_back({divided(c[0], kAlong), divided(c[1], kAlong), divided(c[2], kAlong)});
-  std::vector<Cube> sorted = blocks;
-  sort_cubes(sorted);
-  std::vector<Box> boxes(sorted.size());
-  for (std::size_t i = 0; i < cubes.size(); ++i) {
-    const Cube& c = cubes[i];
-    const Vec3 center =
-        side * Vec3(static_cast<double>(c[0]) + 0.5, static_cast<double>(c[1]) + 0.5,
-                    static_cast<double>(c[2]) + 0.5);
-    boxes[find_cube(sorted, blocks[i])].add(center);
-  }
+    blocks.push_back(cube_of(center_of(c), kAlong * side));
+  sort_cubes(blocks);
+  std::vector<Box> boxes(blocks.size());
+  for (const Cube& c : cubes)
+    boxes[find_cube(blocks, cube_of(center_of(c), kAlong * side))].add(center_of(c));
   std::vector<Sphere> spheres;
   spheres.reserve(boxes.size());
   for (const Box& box : boxes)

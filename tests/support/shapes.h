@@ -56,6 +56,23 @@ inline void add_quad(TriangleSoup& soup, std::uint32_t a, std::uint32_t b, std::
   soup.triangles.push_back({a, c, d});
 }
 
+/// A square sheet in z = 0 about the origin, of so many squares of side 1 along each side, looking
+/// along z.
+inline TriangleMesh square_sheet(std::uint32_t squares) {
+  TriangleMesh mesh;
+  const double half = 0.5 * squares;
+  for (std::uint32_t i = 0; i <= squares; ++i) {
+    for (std::uint32_t k = 0; k <= squares; ++k) {
+      mesh.positions.emplace_back(i - half, k - half, 0.0);
+      if (i == 0 || k == 0) continue;
+      const std::uint32_t d = i * (squares + 1) + k, b = d - (squares + 1);
+      mesh.triangles.push_back({b - 1, d - 1, d});
+      mesh.triangles.push_back({b - 1, d, b});
+    }
+  }
+  return mesh;
+}
+
 /// A surface of revolution about z. The profile (radius, z) has its outside to the right as one
 /// walks along it with the radius to the right and z up; points of radius 0 become one vertex. A
 /// `closed` profile returns to its start.

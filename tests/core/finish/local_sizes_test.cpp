@@ -2,8 +2,9 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdint>
 #include <vector>
+
+#include "tests/support/shapes.h"
 
 namespace rangezip {
 namespace {
@@ -25,18 +26,7 @@ PointGrid lattice(int times) {
 
 /// The same square in triangles of side 1.
 TriangleMesh square() {
-  constexpr std::uint32_t kSide = 25;
-  TriangleMesh mesh;
-  for (std::uint32_t i = 0; i < kSide; ++i) {
-    for (std::uint32_t k = 0; k < kSide; ++k) {
-      mesh.positions.emplace_back(i - 12.0, k - 12.0, 0.0);
-      if (i == 0 || k == 0) continue;
-      const std::uint32_t d = i * kSide + k, b = d - kSide;
-      mesh.triangles.push_back({b - 1, d - 1, d});
-      mesh.triangles.push_back({b - 1, d, b});
-    }
-  }
-  return mesh;
+  return shapes::square_sheet(24);
 }
 
 }  // namespace

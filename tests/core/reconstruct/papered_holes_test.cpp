@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "tests/support/shapes.h"
+
 namespace rangezip {
 namespace {
 
@@ -34,18 +36,7 @@ std::vector<Vec3> plate_with_hole(double depth) {
 
 /// The plate without its hole, in squares of side 1.
 TriangleMesh closed_plate() {
-  constexpr std::uint32_t kSide = 23;
-  TriangleMesh mesh;
-  for (std::uint32_t i = 0; i < kSide; ++i) {
-    for (std::uint32_t k = 0; k < kSide; ++k) {
-      mesh.positions.emplace_back(i - 11.0, k - 11.0, 0.0);
-      if (i == 0 || k == 0) continue;
-      const std::uint32_t d = i * kSide + k, b = d - kSide;
-      mesh.triangles.push_back({b - 1, d - 1, d});
-      mesh.triangles.push_back({b - 1, d, b});
-    }
-  }
-  return mesh;
+  return shapes::square_sheet(22);
 }
 
 }  // namespace
