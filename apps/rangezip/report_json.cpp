@@ -62,6 +62,7 @@ Json json_of(const FinishReport& finish) {
           {"flipped_edges", finish.flipped_edges},
           {"flattened_spikes", finish.flattened_spikes},
           {"snapped_vertices", finish.snapped_vertices},
+          {"regrown_steps", finish.regrown_steps},
           {"border_steps", finish.border_steps},
           {"dropped_components", finish.dropped_components},
           {"dropped_faces", finish.dropped_faces}};

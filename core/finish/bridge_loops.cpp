@@ -10,6 +10,7 @@
 #include "core/finish/components.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/loop_neighbors.h"
+#include "core/finish/unsupported_faces.h"
 
 namespace rangezip {
 namespace {
@@ -20,11 +21,14 @@ constexpr double kMaxBridgeLength = 4.0;
 /// Cosines: between the two faces of a bridge, and between them and the faces beside it.
 constexpr double kMinCosineInside = 0.3;
 constexpr double kMinCosineBeside = -0.3;
+/// How near the middle of a bridge's face has a point.
+constexpr SupportReach kSupport{.pixels = 0.75, .spacings = 1.5};
 
 class Bridger {
  public:
-  Bridger(TriangleMesh& mesh, double pixel_size)
+  Bridger(TriangleMesh& mesh, const PointGrid& cloud, double pixel_size)
       : mesh_(mesh),
+        cloud_(cloud),
         h_(pixel_size),
         table_(mesh.triangles, mesh.positions.size()),
         loops_(boundary_loops(table_)),
@@ -63,6 +67,14 @@ class Bridger {
 
   [[nodiscard]] Vec3 normal_of(const Triangle& t) const { return unit_normal(mesh_.positions, t); }
 
+  /// Whether the cloud, if there is one, has points in the middle of the face.
+  [[nodiscard]] bool is_shown(const Triangle& t) const {
+    if (cloud_.empty()) return true;
+    const auto& [a, b, c] = t;
+    const auto& p = mesh_.positions;
+    return is_supported(cloud_, (p[a] + p[b] + p[c]) / 3.0, h_, kSupport);
+  }
+
   /// Tries the pairs of two loops, the nearest first.
   bool bridge_one(std::span<const LoopNeighbors> pairs) {
     for (const LoopNeighbors& pair : pairs) {
@@ -80,6 +92,7 @@ class Bridger {
       if (glm::dot(n1, normal_of(table_.triangle(edge_a / 3))) < kMinCosineBeside) continue;
       if (glm::dot(n2, normal_of(table_.triangle(edge_b / 3))) < kMinCosineBeside) continue;
       if (glm::length(mesh_.positions[a2] - mesh_.positions[b2]) > kMaxBridgeLength * h_) continue;
+      if (!is_shown(first) || !is_shown(second)) continue;
       mesh_.triangles.push_back(first);
       mesh_.triangles.push_back(second);
       return true;
@@ -88,6 +101,7 @@ class Bridger {
   }
 
   TriangleMesh& mesh_;
+  const PointGrid& cloud_;
   double h_;
   CornerTable table_;
   std::vector<BoundaryLoop> loops_;
@@ -97,8 +111,8 @@ class Bridger {
 
 }  // namespace
 
-std::size_t bridge_loops(TriangleMesh& mesh, double pixel_size) {
-  return Bridger(mesh, pixel_size).run();
+std::size_t bridge_loops(TriangleMesh& mesh, const PointGrid& cloud, double pixel_size) {
+  return Bridger(mesh, cloud, pixel_size).run();
 }
 
 }  // namespace rangezip

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "core/finish/point_grid.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace rangezip {
@@ -9,10 +10,13 @@ namespace rangezip {
 /// Joins pieces of a mesh over the cracks between them: where the boundary loops of two different
 /// components run beside each other within three pixels for half of the shorter one, two triangles
 /// go across at the narrowest place, so that the two loops become one crack that can be filled.
-/// Loops of one component are never joined: that would make a handle.
-/// Positions stay. @param pixel_size h, model units; positive
+/// Loops of one component are never joined: that would make a handle. Nor does a bridge lead
+/// through the air: the middles of its faces need a point of the cloud within 0.75 h or 1.5
+/// spacings. Positions stay.
+/// @param cloud points of the cloud; may be empty: no evidence is asked for
+/// @param pixel_size h, model units; positive
 /// @pre oriented, manifold
 /// @return number of bridges; their faces are the last ones of the mesh, two each
-std::size_t bridge_loops(TriangleMesh& mesh, double pixel_size);
+std::size_t bridge_loops(TriangleMesh& mesh, const PointGrid& cloud, double pixel_size);
 
 }  // namespace rangezip

@@ -75,7 +75,8 @@ class Extender {
         cloud_(cloud),
         h_(options.pixel_size),
         reach_(kReach * options.pixel_size),
-        min_component_(options.min_component) {}
+        min_component_(options.min_component),
+        may_reach_(options.may_reach) {}
 
   /// @return whether anything changed
   bool round(ExtendBorderReport& report) {
@@ -86,6 +87,8 @@ class Extender {
     const FaceGrid faces(mesh_, table, reach_);
     std::vector<BorderGap> gaps =
         find_border_gaps(mesh_, table, faces, cloud_, {reach_, kNegligible * h_});
+    if (may_reach_)
+      std::erase_if(gaps, [&](const BorderGap& gap) { return !may_reach_(gap.point); });
     report.edges_left = gaps.size();
     std::stable_sort(gaps.begin(), gaps.end(),
                      [](const BorderGap& p, const BorderGap& q) { return p.beyond > q.beyond; });
@@ -255,6 +258,7 @@ class Extender {
     }
     remove_triangles(mesh_.triangles, goes);
     clean_topology(mesh_);
+    if (min_component_ == 0) return;
     const DroppedComponents dropped = drop_small_components(mesh_, min_component_);
     sum.components += dropped.components;
     sum.faces += dropped.faces;
@@ -265,6 +269,7 @@ class Extender {
   double h_;
   double reach_;
   std::size_t min_component_;
+  std::function<bool(const Vec3&)> may_reach_;
   std::size_t first_border_edges_ = 0;
   std::vector<std::uint32_t> moves_;  // of each vertex so far
   std::map<EdgeKey, Failures> failures_;
@@ -283,7 +288,6 @@ ExtendBorderReport extend_border(TriangleMesh& mesh, const PointGrid& cloud,
     progress.check_stop();
     if (!extender.round(report)) break;
   }
-  if (report.steps > 0) remove_unused_vertices(mesh);
   return report;
 }
 

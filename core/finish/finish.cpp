@@ -17,6 +17,7 @@
 #include "core/finish/fit_window.h"
 #include "core/finish/local_sizes.h"
 #include "core/finish/point_grid.h"
+#include "core/finish/regrow.h"
 #include "core/finish/remesh.h"
 #include "core/finish/repair.h"
 #include "core/finish/snap_features.h"
@@ -243,6 +244,7 @@ FinishResult finish(TriangleMesh mesh, std::span<const Vec3> cloud, const Finish
   const double h = options.pixel_size;
   const PointGrid points(cloud, region_of(mesh, kRegionMargin * h), kPointCell * h);
   clean_topology(mesh);
+  if (options.regrow) result.report.regrown_steps = regrow(mesh, cloud, points, h, progress);
   repair(mesh, self_intersections(mesh), points, options, result.report, progress);
   remove_thin_handles(mesh, points, options, result.report, progress);
   if (options.method == FinishMethod::full) improve(mesh, points, options, result.report, progress);

@@ -29,6 +29,7 @@ struct FinishOptions {
                      ///< is fitted to several of them; 0: the points are spread evenly
   bool narrow_gaps = false;  ///< the cloud has gaps that scans reach only in part: no surface is
                              ///< given up to close a hole, and handles are cut where no points lie
+  bool regrow = false;  ///< grows over places that no scan has reached, for clouds without noise
   bool follow_density = false;      ///< `full` makes smaller triangles where the cloud is so dense
                                     ///< that scans might have had pixels of under 0.6 h there
   std::size_t min_component = 100;  ///< smaller pieces are dropped
@@ -51,7 +52,8 @@ struct FinishReport {
   std::size_t flipped_edges = 0;
   std::size_t flattened_spikes = 0;
   std::size_t snapped_vertices = 0;
-  std::size_t border_steps = 0;  ///< that brought the border out to the end of the cloud
+  std::size_t regrown_steps = 0;  ///< that brought borders over what no scan has reached
+  std::size_t border_steps = 0;   ///< that brought the border out to the end of the cloud
   std::size_t dropped_components = 0;
   std::size_t dropped_faces = 0;
 };

@@ -51,9 +51,10 @@ void clean(TriangleMesh& mesh, const FinishOptions& options, FinishReport& repor
 }
 
 /// Bridges whose faces cross anything are taken back.
-void bridge(TriangleMesh& mesh, const FinishOptions& options, FinishReport& report) {
+void bridge(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
+            FinishReport& report) {
   const std::size_t before = mesh.triangles.size();
-  std::size_t bridges = bridge_loops(mesh, options.pixel_size);
+  std::size_t bridges = bridge_loops(mesh, cloud, options.pixel_size);
   if (bridges == 0) return;
   std::vector<std::uint32_t> added(mesh.triangles.size() - before);
   std::iota(added.begin(), added.end(), static_cast<std::uint32_t>(before));
@@ -203,7 +204,7 @@ void repair(TriangleMesh& mesh, const Pairs& crossing, const PointGrid& cloud,
   for (int round = 0; round < rounds; ++round) {
     progress.check_stop();
     clean(mesh, options, report);
-    bridge(mesh, options, report);
+    bridge(mesh, cloud, options, report);
     JoinedLoops joined = join_loops(mesh, cloud, options.pixel_size);
     report.joined_loops += joined.pairs;
     if (round >= kRoundsToJoin) joined.is_hindered.clear();

@@ -10,10 +10,10 @@
 #include "core/base/parallel.h"
 #include "core/base/sphere_set.h"
 #include "core/base/symmetric_eigen.h"
+#include "core/finish/left_out_points.h"
 #include "core/finish/point_grid.h"
 #include "core/finish/unsupported_faces.h"
 #include "core/mesh/places.h"
-#include "core/reconstruct/left_out_points.h"
 
 namespace rangezip {
 namespace {

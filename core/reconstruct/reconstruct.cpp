@@ -9,13 +9,13 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/finish/left_out_points.h"
 #include "core/mesh/self_intersection.h"
 #include "core/plan/open_sheet.h"
 #include "core/plan/spacing.h"
 #include "core/plan/spread.h"
 #include "core/plan/view_planner.h"
 #include "core/reconstruct/dense_places.h"
-#include "core/reconstruct/left_out_points.h"
 #include "core/reconstruct/papered_holes.h"
 #include "core/reconstruct/resolution.h"
 #include "core/reconstruct/scan_recipe.h"
@@ -26,8 +26,12 @@ namespace {
 
 constexpr int kFillRounds = 2;
 constexpr int kFillViewsPerRound = 6;
-constexpr int kCoverRounds = 2;
+/// Rounds of views of what is uncovered, as long as each leaves less than so much of it.
+constexpr int kCoverRounds = 12;
 constexpr int kCoverViewsPerRound = 12;
+constexpr double kWorthwhile = 0.9;
+/// Those of narrow gaps: faces across them that had to go come back with every round.
+constexpr int kNarrowRounds = 2;
 /// In h: the pixels of those views of narrow gaps, which h does not resolve.
 constexpr double kCoverPixel = 0.5;
 /// Rounds of views of papered holes; the second sees what the first left out, so many h away.
@@ -41,8 +45,9 @@ constexpr double kMinNewPoints = 40;  ///< that a view must add: fewer are a few
 /// Of the samples: less is left out by noise and in the pockets of real scans, where more views
 /// make handles rather than surface.
 constexpr double kUncoveredShare = 0.01;
-/// Of the samples: of narrow gaps more is left out than of a body with single holes in it.
-constexpr double kNarrowShare = 0.02;
+constexpr double kUncoveredShareIfClean = 0.002;
+/// Of the samples: of narrow gaps more is left out, whatever the views, than of deep pockets.
+constexpr double kNarrowShare = 0.03;
 constexpr std::size_t kJudgedSamples = 100'000;
 constexpr std::size_t kCoverSamples = 2'000'000;  ///< drawn to plan views of what is uncovered
 constexpr double kCosine75Degrees = 0.2588190451025207;  ///< steeper cells are cut, see scan_recipe
@@ -123,6 +128,7 @@ class Run {
     scan_fill_views();
     rescan_dense_places();
     rescan_papered_holes();
+    if (has_narrow_gaps_ || may_regrow()) drop_unsupported();
     finish_mesh();
     check_result();
     return std::move(result_);
@@ -188,40 +194,60 @@ class Run {
   }
 
   /// Samples of places farther from the mesh than a pixel side, out of kJudgedSamples.
-  [[nodiscard]] std::vector<Vec3> uncovered_samples() const {
+  struct Uncovered {
+    std::vector<Vec3> samples;
+    double share = 0.0;
+  };
+
+  [[nodiscard]] Uncovered find_uncovered() const {
     std::vector<Vec3> chosen;
     for (const std::size_t index : spread_indices(samples_.size(), kJudgedSamples))
       chosen.push_back(samples_[index]);
-    return left_out_points(chosen, *session_.mesh(), recipe_.pixel_size);
+    Uncovered uncovered;
+    uncovered.samples = left_out_points(chosen, *session_.mesh(), recipe_.pixel_size);
+    uncovered.share =
+        static_cast<double>(uncovered.samples.size()) / static_cast<double>(chosen.size());
+    return uncovered;
   }
 
-  /// The plan was made for a part of the points in small images: what it overlooked, the walls of
-  /// drilled holes and of narrow gaps above all, is looked for again with the points that are left
-  /// and, of narrow gaps, finer pixels. Not where the caller has said how many views there are to
-  /// be.
+  /// The plan was made for a part of the points in small images: what it overlooked, deep pockets
+  /// and the walls of drilled holes above all, is looked for again with the points that are left.
+  /// What these views do not reach either lies in narrow gaps, which need finer pixels. Not where
+  /// the caller has said how many views there are to be.
   void scan_uncovered() {
     if (options_.views) return;
-    ScanRecipe recipe = recipe_;
-    for (int round = 0; round < kCoverRounds; ++round) {
-      const std::vector<Vec3> uncovered = uncovered_samples();
-      const double share = static_cast<double>(uncovered.size()) /
-                           static_cast<double>(std::min(samples_.size(), kJudgedSamples));
-      if (share < kUncoveredShare) break;
-      // Where contours lie apart every face is far from points, and none across a gap can be told.
-      if (round == 0) has_narrow_gaps_ = share >= kNarrowShare && recipe_.gap == 0.0;
-      if (has_narrow_gaps_) {
-        recipe.pixel_size = recipe.vote_pixel_size = kCoverPixel * recipe_.pixel_size;
-        drop_unsupported();
-      }
-      const std::vector<Vec3> directions =
-          views_of(uncovered, recipe, kCoverSamples, kMinNewPoints);
-      if (directions.empty()) break;
-      scan_from(directions, recipe, fill_scan);
+    Uncovered uncovered = find_uncovered();
+    const double least_share = is_clean_ ? kUncoveredShareIfClean : kUncoveredShare;
+    for (int round = 0; round < kCoverRounds && uncovered.share >= least_share; ++round) {
+      const double before = uncovered.share;
+      if (!scan_points(uncovered.samples, recipe_)) break;
+      uncovered = find_uncovered();
+      if (uncovered.share > kWorthwhile * before) break;
     }
+    // Where contours lie apart every face is far from points, and none across a gap can be told.
+    has_narrow_gaps_ = uncovered.share >= kNarrowShare && recipe_.gap == 0.0;
+    if (has_narrow_gaps_) scan_narrow_gaps();
     clock_.finish("uncovered");
   }
 
-  /// Faces across gaps hide what lies in them, and make handles.
+  void scan_narrow_gaps() {
+    ScanRecipe recipe = recipe_;
+    recipe.pixel_size = recipe.vote_pixel_size = kCoverPixel * recipe_.pixel_size;
+    for (int round = 0; round < kNarrowRounds; ++round) {
+      drop_unsupported();
+      const Uncovered uncovered = find_uncovered();
+      if (uncovered.share < kUncoveredShare || !scan_points(uncovered.samples, recipe)) break;
+    }
+  }
+
+  /// @return whether there are views that show points of them
+  bool scan_points(const std::vector<Vec3>& points, const ScanRecipe& recipe) {
+    const std::vector<Vec3> directions = views_of(points, recipe, kCoverSamples, kMinNewPoints);
+    scan_from(directions, recipe, fill_scan);
+    return !directions.empty();
+  }
+
+  /// Faces across gaps hide what lies in them, make handles, and join what is apart.
   void drop_unsupported() {
     apply(DropUnsupported{.pixel_size = recipe_.pixel_size},
           part_of(progress_, "fill views", kFillShare, kFillShare));
@@ -234,13 +260,16 @@ class Run {
       if (directions.empty()) break;
       scan_from(directions, recipe_, fill_scan);
     }
-    if (has_narrow_gaps_) drop_unsupported();
     clock_.finish("fill views");
   }
 
   [[nodiscard]] bool is_plain_cloud() const {
     return scene_.triangle_count() == 0 && recipe_.gap == 0.0;
   }
+
+  /// Whether the cloud tells so well where the surface is, that the mesh can follow it where no
+  /// scan does.
+  [[nodiscard]] bool may_regrow() const { return is_plain_cloud() && is_clean_; }
 
   [[nodiscard]] bool may_add_views() const {
     return !options_.views && options_.method == ReconstructMethod::automatic;
@@ -274,7 +303,7 @@ class Run {
   /// Where scans have papered over holes, the mesh goes, and the places are scanned again with
   /// finer pixels. Last, since scans with the usual pixels would close the holes again.
   void rescan_papered_holes() {
-    if (!may_add_views() || !is_plain_cloud() || !is_clean_) return;
+    if (!may_add_views() || !may_regrow()) return;
     const double h = recipe_.pixel_size;
     const PaperedHoles holes = find_papered_holes(samples_, *session_.mesh(), h);
     if (holes.places.empty()) return;
@@ -335,6 +364,7 @@ class Run {
       command.options.flat_tolerance = options_.decimate.value_or(0.0);
       command.options.gap = recipe_.gap;
       command.options.narrow_gaps = has_narrow_gaps_;
+      command.options.regrow = may_regrow();
       command.options.follow_density = follows_density();
       command.options.snap_features = recipe_.gap == 0.0;  // between contours a bend looks sharp
       apply(command, part_of(progress_, "finish", kFinishShare, kCheckShare));

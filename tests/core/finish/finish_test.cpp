@@ -12,6 +12,7 @@
 #include "core/mesh/mesh_report.h"
 #include "core/mesh/self_intersection.h"
 #include "tests/core/finish/shapes.h"
+#include "tests/support/shapes.h"
 
 namespace rangezip {
 namespace {
@@ -225,6 +226,28 @@ TEST_CASE("a crack between two pieces is bridged and closed") {
   REQUIRE(report_mesh(result.mesh).euler == 2);
 }
 
+TEST_CASE("two bodies side by side are not bridged where the cloud shows air between them") {
+  // Two squares, 2.5 pixels apart, with points on both and none between.
+  constexpr double kGap = 2.5;
+  TriangleMesh mesh = shapes::square_sheet(12);
+  const auto count = static_cast<std::uint32_t>(mesh.positions.size());
+  const std::vector<Triangle> faces = mesh.triangles;
+  for (std::uint32_t v = 0; v < count; ++v)
+    mesh.positions.push_back(mesh.positions[v] + Vec3(12.0 + kGap, 0.0, 0.0));
+  for (const auto& [a, b, c] : faces)
+    mesh.triangles.push_back({count + a, count + b, count + c});
+  std::vector<Vec3> points;
+  for (double x = -6.0; x <= 18.0 + kGap; x += 0.25) {
+    for (double y = -6.0; y <= 6.0; y += 0.25)
+      points.emplace_back(x, y, 0.0);
+  }
+  const Box region{Vec3(-8.0), Vec3(24.0)};
+  TriangleMesh joined = mesh;
+  CHECK(bridge_loops(joined, PointGrid(points, region, 0.7), 1.0) == 1);
+  std::erase_if(points, [&](const Vec3& p) { return p.x > 6.0 && p.x < 6.0 + kGap; });
+  CHECK(bridge_loops(mesh, PointGrid(points, region, 0.7), 1.0) == 0);
+}
+
 TEST_CASE("loops of one component are never joined to a handle") {
   // A thin slab with a hole in each face, opposite to each other and one pixel apart.
   constexpr int kN = 32;
@@ -232,7 +255,7 @@ TEST_CASE("loops of one component are never joined to a handle") {
   for (Vec3& p : mesh.positions)
     p.z *= 0.03;
   testing::cut_where(mesh, [](const Vec3& p) { return std::hypot(p.x, p.y) < 0.3; });
-  REQUIRE(bridge_loops(mesh, 2.0 / kN) == 0);
+  REQUIRE(bridge_loops(mesh, PointGrid({}, Box{}, 1.0), 2.0 / kN) == 0);
   const FinishResult result = finish(mesh, {}, options_for(kN, FinishMethod::fast));
   REQUIRE(report_mesh(result.mesh).euler == 2);
 }

@@ -77,6 +77,7 @@ inline std::vector<Command> full_commands(shapes::Random& random) {
   finish.options.snap_features = false;
   finish.options.gap = share();
   finish.options.narrow_gaps = true;
+  finish.options.regrow = true;
   finish.options.follow_density = true;
   finish.options.min_component = static_cast<std::size_t>(count());
 

@@ -1,4 +1,4 @@
-#include "core/reconstruct/left_out_points.h"
+#include "core/finish/left_out_points.h"
 
 #include <cstddef>
 #include <cstdint>

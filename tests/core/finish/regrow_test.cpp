@@ -1,0 +1,102 @@
+#include "core/finish/regrow.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "core/finish/left_out_points.h"
+#include "core/mesh/mesh_report.h"
+#include "core/mesh/self_intersection.h"
+#include "tests/core/finish/shapes.h"
+#include "tests/support/shapes.h"
+
+namespace rangezip {
+namespace {
+
+using testing::uniform;
+
+constexpr double kH = 1.0;
+constexpr int kSide = 24;
+const Box kRegion{Vec3(-kSide), Vec3(kSide)};
+
+PointGrid grid_of(const std::vector<Vec3>& points) {
+  return PointGrid(points, kRegion, 0.7 * kH);
+}
+
+/// About six a pixel in the square of side kSide about the origin, at this height.
+void add_sheet_points(std::vector<Vec3>& points, double z, std::mt19937_64& engine) {
+  constexpr double kHalf = 0.5 * kSide;
+  for (int i = 0; i < 6 * kSide * kSide; ++i)
+    points.emplace_back(uniform(engine, -kHalf, kHalf), uniform(engine, -kHalf, kHalf), z);
+}
+
+/// The sheet around this height without its middle; turned over, it looks down.
+TriangleMesh frame(double z, double hole, bool is_turned) {
+  TriangleMesh mesh = shapes::square_sheet(kSide);
+  testing::cut_where(mesh,
+                     [&](const Vec3& p) { return std::max(std::abs(p.x), std::abs(p.y)) < hole; });
+  for (Vec3& p : mesh.positions)
+    p.z = z;
+  for (Triangle& t : mesh.triangles) {
+    if (is_turned) std::swap(t[1], t[2]);
+  }
+  remove_unused_vertices(mesh);
+  return mesh;
+}
+
+void append(TriangleMesh& mesh, const TriangleMesh& other) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
+  for (const auto& [a, b, c] : other.triangles)
+    mesh.triangles.push_back({first + a, first + b, first + c});
+}
+
+void require_clean(const TriangleMesh& mesh) {
+  REQUIRE(report_mesh(mesh).is_manifold());
+  REQUIRE(self_intersections(mesh).empty());
+}
+
+TEST_CASE("regrow covers what scans left out of two sheets two pixels apart, and keeps them apart",
+          "[finish]") {
+  const double gap = GENERATE(2.0, 3.0);
+  const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
+  CAPTURE(gap, seed);
+  std::mt19937_64 engine(seed);
+  std::vector<Vec3> points;
+  add_sheet_points(points, 0.0, engine);
+  add_sheet_points(points, gap, engine);
+  TriangleMesh mesh = frame(0.0, 0.35 * kSide, false);
+  append(mesh, frame(gap, 0.35 * kSide, true));
+  REQUIRE(left_out_points(points, mesh, kH).size() > points.size() / 4);
+
+  REQUIRE(regrow(mesh, points, grid_of(points), kH) > 0);
+
+  require_clean(mesh);
+  CHECK(left_out_points(points, mesh, kH).empty());
+  const auto height = [&](std::uint32_t v) { return mesh.positions[v].z; };
+  CHECK(std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
+    const double z = height(t[0]) < 0.5 * gap ? 0.0 : gap;
+    return std::all_of(t.begin(), t.end(),
+                       [&](std::uint32_t v) { return std::abs(height(v) - z) < 1e-3; });
+  }));
+}
+
+TEST_CASE("regrow leaves a hole that holds no points, and what lies far from points left out",
+          "[finish]") {
+  const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
+  CAPTURE(seed);
+  std::mt19937_64 engine(seed);
+  std::vector<Vec3> points;
+  add_sheet_points(points, 0.0, engine);
+  std::erase_if(points, [](const Vec3& p) { return std::hypot(p.x, p.y) < 6.0; });
+  TriangleMesh mesh = frame(0.0, 6.0, false);
+  const TriangleMesh before = mesh;
+  REQUIRE(regrow(mesh, points, grid_of(points), kH) == 0);
+  CHECK(mesh.triangles == before.triangles);
+  CHECK(mesh.positions == before.positions);
+}
+
+}  // namespace
+}  // namespace rangezip
