@@ -48,6 +48,19 @@ if(left)
   message(SEND_ERROR "sessions of --verify are left: ${left}")
 endif()
 
+# Sharp edges, a thin body and slices, where the nearest face is often one that is not seen.
+foreach(body cube plate)
+  execute_process(COMMAND ${PROGRAM} sample ${body}.ply -o ${body}.xyz --points 30000
+    WORKING_DIRECTORY ${SCRATCH} COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
+foreach(body cube plate contours)
+  execute_process(COMMAND ${RANGEZIP} mesh ${body}.xyz -o ${body}.mesh.ply --method paper --verify
+    WORKING_DIRECTORY ${SCRATCH} RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE err)
+  if(NOT result EQUAL 0 OR NOT "${out}" MATCHES "samples, nearest face: [1-9].*verdict: holds")
+    message(SEND_ERROR "--verify of ${body}: ${result}, ${out}${err}")
+  endif()
+endforeach()
+
 # A mesh that crosses itself while no finish has been made is counted, not judged.
 file(WRITE ${SCRATCH}/crossing.obj "v -2 -1 0\nv 2 -1 0\nv 0 2 0\nv 0 0 -1\nv 0 0.5 1\nv 0 -0.5 1\n"
   "f 1 2 3\nf 4 5 6\n")
