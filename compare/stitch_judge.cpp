@@ -136,6 +136,7 @@ std::vector<StitchStep> judge_stitches(const Scene& scene, const TriangleMesh& i
                                        const Progress& progress) {
   Session session(scene, initial);
   std::vector<StitchStep> steps;
+  std::size_t crossings = initial.empty() ? 0 : judge_mesh(initial).self_intersections;
   for (std::size_t i = 0; i < commands.size(); ++i) {
     const auto before = session.mesh();
     apply(session, commands[i], rasterizer, i, progress);
@@ -146,7 +147,10 @@ std::vector<StitchStep> judge_stitches(const Scene& scene, const TriangleMesh& i
       const StitchResult again = stitch(*before, *session.last_scan(), add->stitch);
       step.is_repeatable = again.mesh == *session.mesh();
       step.stitch = judge_stitch(*before, *session.last_scan(), again.record, options);
+      step.new_crossings =
+          step.mesh.self_intersections - std::min(crossings, step.mesh.self_intersections);
     }
+    crossings = step.mesh.self_intersections;
     progress.check_stop();
   }
   return steps;

@@ -60,8 +60,9 @@ struct StitchVerdict {
 struct StitchStep {
   MeshVerdict mesh;
   std::optional<StitchVerdict> stitch;
-  bool is_repeatable = true;  ///< a stitch made again gave the same mesh
-  bool is_finished = false;   ///< the command was the finish, after which nothing may cross
+  bool is_repeatable = true;      ///< a stitch made again gave the same mesh
+  bool is_finished = false;       ///< the command was the finish, after which nothing may cross
+  std::size_t new_crossings = 0;  ///< of a stitch: self-intersections that were not there before
 };
 
 /// Plays a session command by command and judges every stitch and every mesh.

@@ -11,6 +11,7 @@ LocationSummary summarize_locations(std::span<const StitchVerdict> stitches,
   std::vector<double> losses;
   for (const StitchVerdict& stitch : stitches) {
     const LocationVerdict& verdict = stitch.*which;
+    summary.unlocated += verdict.unlocated;
     summary.located += verdict.points - verdict.unlocated;
     summary.agreeing += verdict.agreeing;
     summary.close += verdict.close;
@@ -52,6 +53,7 @@ StitchSummary summarize_session(std::span<const StitchStep> steps) {
     if (step.is_finished) {
       summary.finished_faults += step.mesh.self_intersections + step.mesh.degenerate_faces;
     }
+    summary.new_crossings += step.new_crossings;
     if (!step.is_repeatable) ++summary.not_repeatable;
     if (step.stitch) stitches.push_back(*step.stitch);
   }
@@ -66,7 +68,7 @@ StitchSummary summarize_session(std::span<const StitchStep> steps) {
 bool StitchSummary::is_good(const StitchLimits& limits) const {
   return samples.acceptance() >= limits.location && insertions.acceptance() >= limits.location &&
          segments.ratio_p99 <= limits.length_ratio && not_repeatable == 0 && not_manifold == 0 &&
-         finished_faults == 0;
+         finished_faults == 0 && new_crossings == 0;
 }
 
 }  // namespace rangezip::compare

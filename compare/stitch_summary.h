@@ -16,6 +16,7 @@ struct StitchLimits {
 
 /// Locations of several stitches.
 struct LocationSummary {
+  std::size_t unlocated = 0;  ///< lie on no face of the old surface: nothing to judge
   std::size_t located = 0;
   std::size_t agreeing = 0;
   std::size_t close = 0;
@@ -53,8 +54,9 @@ struct StitchSummary {
   std::size_t not_repeatable = 0;   ///< stitches
   std::size_t not_manifold = 0;     ///< commands after which the mesh is not manifold and oriented
   std::size_t finished_faults = 0;  ///< self-intersections and degenerate faces after a finish
+  std::size_t new_crossings = 0;    ///< self-intersections that stitches made
 
-  /// Whether all that must hold does.
+  /// Whether all that must hold and could be judged does. What is empty could not.
   [[nodiscard]] bool is_good(const StitchLimits& limits = {}) const;
 };
 [[nodiscard]] StitchSummary summarize_session(std::span<const StitchStep> steps);

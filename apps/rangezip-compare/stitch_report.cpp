@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <ostream>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace rangezip::compare {
 
@@ -15,6 +17,25 @@ constexpr double kPercent = 100.0;
 
 std::string_view text_of(bool holds) {
   return holds ? "holds" : "MISSED";
+}
+
+/// The parts of which the session had nothing: no verdict is claimed for them.
+std::vector<std::string> parts_without_verdict(const StitchSummary& summary) {
+  std::vector<std::string> parts;
+  if (summary.samples.located == 0) parts.emplace_back("samples");
+  if (summary.insertions.located == 0) parts.emplace_back("insertions");
+  if (summary.segments.followed == 0) parts.emplace_back("segments");
+  return parts;
+}
+
+std::string verdict_text(const StitchSummary& summary, const StitchLimits& limits) {
+  const std::vector<std::string> missing = parts_without_verdict(summary);
+  if (!summary.is_good(limits) || missing.empty()) {
+    return fmt::format("verdict: {}", text_of(summary.is_good(limits)));
+  }
+  return fmt::format("verdict: {}; nothing to judge: {}",
+                     missing.size() == 3 ? "of the meshes alone holds" : "holds",
+                     fmt::join(missing, ", "));
 }
 
 std::string share_text(const LocationSummary& summary) {
@@ -46,29 +67,33 @@ void print_step(std::ostream& out, std::size_t number, const std::string& name,
                      step.is_repeatable ? "" : ", NOT REPEATABLE");
 }
 
-std::string limit_text(bool is_kept, std::string_view kind, double limit, std::string_view unit) {
-  return fmt::format("{} {:g}{}: {}", kind, limit, unit, text_of(is_kept));
+std::string limit_text(std::size_t judged, bool is_kept, std::string_view kind, double limit,
+                       std::string_view unit) {
+  return fmt::format("{} {:g}{}: {}", kind, limit, unit,
+                     judged == 0 ? "nothing to judge" : text_of(is_kept));
 }
 
 std::string locations_text(const LocationSummary& summary) {
   return fmt::format(
-      "{} of {} right, {} more close: {}; lost by the others: p95 {:.3g}, max {:.3g} pixel sides",
+      "{} of {} right, {} more close: {}; lost by the others: p95 {:.3g}, max {:.3g} pixel sides; "
+      "{} on no face",
       summary.agreeing, summary.located, summary.close, share_text(summary), summary.losses.p95,
-      summary.losses.max);
+      summary.losses.max, summary.unlocated);
 }
 
 std::string location_limit(const LocationSummary& summary, const StitchLimits& limits) {
-  return limit_text(summary.acceptance() >= limits.location, "at least", kPercent * limits.location,
-                    " %");
+  return limit_text(summary.located, summary.acceptance() >= limits.location, "at least",
+                    kPercent * limits.location, " %");
 }
 
 void print_segments(std::ostream& out, const SegmentSummary& summary, const StitchLimits& limits) {
   out << fmt::format(
       "segments: {} inserted, {} followed, {} lost; length through their faces to the shortest "
-      "path's: p99 {:.4f} ({}), max {:.4f}; apart by p95 {:.3g}, max {:.3g} pixel sides; of the "
+      "path's: p99 {} ({}), max {:.4f}; apart by p95 {:.3g}, max {:.3g} pixel sides; of the "
       "lines in the image: p99 {:.4f}\n",
-      summary.inserted, summary.followed, summary.lost, summary.ratio_p99,
-      limit_text(summary.ratio_p99 <= limits.length_ratio, "at most", limits.length_ratio, ""),
+      summary.inserted, summary.followed, summary.lost, ratio_text(summary),
+      limit_text(summary.followed, summary.ratio_p99 <= limits.length_ratio, "at most",
+                 limits.length_ratio, ""),
       summary.ratio_max, summary.deviations.p95, summary.deviations.max, summary.line_ratio_p99);
 }
 
@@ -77,11 +102,17 @@ Json json_of(const DistanceSummary& summary) {
       {"count", summary.count}, {"mean", summary.mean}, {"p95", summary.p95}, {"max", summary.max}};
 }
 
+/// null where there was nothing to judge.
+Json figure_of(std::size_t judged, double figure) {
+  return judged == 0 ? Json() : Json(figure);
+}
+
 Json json_of(const LocationSummary& summary) {
-  return {{"located", summary.located},
+  return {{"unlocated", summary.unlocated},
+          {"located", summary.located},
           {"agreeing", summary.agreeing},
           {"close", summary.close},
-          {"acceptance", summary.acceptance()},
+          {"acceptance", figure_of(summary.located, summary.acceptance())},
           {"losses", json_of(summary.losses)}};
 }
 
@@ -89,21 +120,21 @@ Json json_of(const SegmentSummary& summary) {
   return {{"inserted", summary.inserted},
           {"followed", summary.followed},
           {"lost", summary.lost},
-          {"ratio_p99", summary.ratio_p99},
-          {"ratio_max", summary.ratio_max},
-          {"line_ratio_p99", summary.line_ratio_p99},
+          {"ratio_p99", figure_of(summary.followed, summary.ratio_p99)},
+          {"ratio_max", figure_of(summary.followed, summary.ratio_max)},
+          {"line_ratio_p99", figure_of(summary.followed, summary.line_ratio_p99)},
           {"deviations", json_of(summary.deviations)}};
 }
 
-/// The places that are not even close, one by one.
-Json far_places(const LocationVerdict& verdict, const StitchVerdict& stitch) {
+/// The places that do not agree, close ones too, one by one.
+Json wrong_places(const LocationVerdict& verdict, const StitchVerdict& stitch) {
   Json places = Json::array();
   for (const WrongFace& wrong : verdict.wrong) {
-    if (wrong.loss <= stitch.slack) continue;
     places.push_back({{"place", wrong.point},
                       {"face", wrong.given},
                       {"nearest", wrong.nearest},
-                      {"loss", wrong.loss / stitch.pixel_size}});
+                      {"loss", wrong.loss / stitch.pixel_size},
+                      {"close", wrong.loss <= stitch.slack}});
   }
   return places;
 }
@@ -115,8 +146,8 @@ Json json_of(const StitchVerdict& stitch) {
             {"insertions", json_of(summarize_locations(one, &StitchVerdict::insertions))},
             {"insertions_nearest", json_of(summarize_locations(one, &StitchVerdict::nearest))},
             {"segments", json_of(summarize_segments(one))}};
-  json["samples"]["far"] = far_places(stitch.samples, stitch);
-  json["insertions"]["far"] = far_places(stitch.insertions, stitch);
+  json["samples"]["wrong"] = wrong_places(stitch.samples, stitch);
+  json["insertions"]["wrong"] = wrong_places(stitch.insertions, stitch);
   return json;
 }
 
@@ -127,6 +158,7 @@ Json json_of(const std::string& name, const StitchStep& step) {
             {"degenerate_faces", step.mesh.degenerate_faces}};
   if (!step.stitch) return json;
   json["repeatable"] = step.is_repeatable;
+  json["new_self_intersections"] = step.new_crossings;
   json["stitch"] = json_of(*step.stitch);
   return json;
 }
@@ -147,16 +179,17 @@ void print_stitches(std::ostream& out, std::span<const std::string> commands,
   out << fmt::format("inserted vertices, nearest face: {}\n", locations_text(summary.nearest));
   print_segments(out, summary.segments, limits);
   out << fmt::format(
-      "meshes: {} not manifold and oriented, {} faults after a finish, {} stitches not "
-      "repeatable\nverdict: {}\n",
-      summary.not_manifold, summary.finished_faults, summary.not_repeatable,
-      text_of(summary.is_good(limits)));
+      "meshes: {} not manifold and oriented, {} faults after a finish, {} self-intersections made "
+      "by stitches, {} stitches not repeatable\n{}\n",
+      summary.not_manifold, summary.finished_faults, summary.new_crossings, summary.not_repeatable,
+      verdict_text(summary, limits));
 }
 
 Json json_of(std::span<const std::string> commands, std::span<const StitchStep> steps,
              const StitchLimits& limits) {
   const StitchSummary summary = summarize_session(steps);
   Json json{{"good", summary.is_good(limits)},
+            {"nothing_to_judge", parts_without_verdict(summary)},
             {"limits", {{"location", limits.location}, {"length_ratio_p99", limits.length_ratio}}},
             {"stitches", summary.stitches},
             {"samples", json_of(summary.samples)},
@@ -165,6 +198,7 @@ Json json_of(std::span<const std::string> commands, std::span<const StitchStep> 
             {"segments", json_of(summary.segments)},
             {"not_manifold", summary.not_manifold},
             {"finished_faults", summary.finished_faults},
+            {"new_self_intersections", summary.new_crossings},
             {"not_repeatable", summary.not_repeatable},
             {"commands", Json::array()}};
   for (std::size_t i = 0; i < steps.size(); ++i)

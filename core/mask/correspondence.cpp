@@ -1,23 +1,19 @@
 #include "core/mask/correspondence.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/image/depth_units.h"
+#include "core/mask/nearest_faces.h"
 #include "core/mesh/drawable.h"
-#include "core/mesh/nearest_face.h"
 
 namespace rangezip {
 
 namespace {
-
-constexpr NearestFace kNothing{kNoPrimitive, std::numeric_limits<double>::infinity()};
 
 /// The band of `half_width` pixel sides, stretched on slopes, around the samples.
 DepthBand band_around(const RangeImage& image, const SlopeImage& slopes, double half_width) {
@@ -41,65 +37,6 @@ Grid<PrimitiveId> faces_in_band(Rasterizer& rasterizer, const RangeImage& image,
   Framebuffer drawn;
   rasterizer.render_in_band(image.view(), {&item, 1}, band, drawn);
   return std::move(drawn.id);
-}
-
-/// Faces to begin a walk at, the nearest first.
-class NearestStarts {
- public:
-  void add(const NearestFace& start) {
-    for (const NearestFace& known : starts_) {
-      if (known.face == start.face) return;
-    }
-    if (!(start.squared_distance < starts_.back().squared_distance)) return;
-    std::size_t k = starts_.size() - 1;
-    for (; k > 0 && start.squared_distance < starts_[k - 1].squared_distance; --k)
-      starts_[k] = starts_[k - 1];
-    starts_[k] = start;
-  }
-
-  [[nodiscard]] auto begin() const { return starts_.begin(); }
-  [[nodiscard]] auto end() const { return starts_.end(); }
-
- private:
-  std::array<NearestFace, 3> starts_{kNothing, kNothing, kNothing};
-};
-
-/// The nearest of the faces reached by walks from the three nearest of what is seen in the pixel
-/// and the eight around it: one walk alone ends in a local minimum where the mesh is rough.
-NearestFace search_nearest_face(const Grid<PrimitiveId>& seen, Pixel p, const TriangleMesh& mesh,
-                                const OutgoingEdges& edges, const Vec3& position) {
-  NearestStarts starts;
-  PrimitiveId last = kNoPrimitive;
-  for (int k = 0; k < 9; ++k) {
-    const Pixel q{p.x + k % 3 - 1, p.y + k / 3 - 1};
-    if (!seen.extent().contains(q) || seen[q] == kNoPrimitive || seen[q] == last) continue;
-    last = seen[q];
-    starts.add(measure_face(mesh, last, position));
-  }
-  NearestFace nearest = kNothing;
-  for (const NearestFace& start : starts) {
-    if (start.face == kNoPrimitive || start.face == nearest.face) continue;
-    const NearestFace found = walk_to_nearest_face(mesh, edges, start.face, position);
-    if (found.squared_distance < nearest.squared_distance) nearest = found;
-  }
-  return nearest;
-}
-
-/// The local search of [Kobbelt, Botsch 2000, 4.3]: from what is seen to the face nearest to each
-/// sample. Farther than `reach` pixel sides none corresponds.
-Grid<PrimitiveId> search_nearest_faces(const Grid<PrimitiveId>& seen, const RangeImage& image,
-                                       const TriangleMesh& mesh, double reach) {
-  const OutgoingEdges edges(mesh);
-  Grid<PrimitiveId> faces(image.extent(), kNoPrimitive);
-  for_each_row(image.extent().height, [&](int y) {
-    for (Pixel p{0, y}; p.x < image.extent().width; ++p.x) {
-      if (!image.has_sample(p) || seen[p] == kNoPrimitive) continue;
-      const NearestFace found = search_nearest_face(seen, p, mesh, edges, image.position(p));
-      const double limit = reach * image.pixel_size(p);
-      if (found.squared_distance <= limit * limit) faces[p] = found.face;
-    }
-  });
-  return faces;
 }
 
 Correspondence by_depth_band(Rasterizer& rasterizer, const RangeImage& image,

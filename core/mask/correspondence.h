@@ -28,9 +28,8 @@ struct Correspondence {
 
 /// The face of `mesh` that corresponds to each sample [Kobbelt, Botsch 2000, 4.3].
 ///
-/// Both look at what is drawn in the pixel and the eight around it, and from the three nearest
-/// faces there walks over neighbours go downhill in distance to the sample: the nearest face so
-/// found corresponds. depth_band: the mesh is drawn under the image's view and every fragment
+/// Both go from what is drawn to the face nearest to each sample (core/mask/nearest_faces.h).
+/// depth_band: the mesh is drawn under the image's view and every fragment
 /// outside the band around the range image is dropped, so the face is on the right sheet by
 /// construction. Front faces (Facing::front) and back faces are drawn apart. id_buffer: the paper's
 /// way; the mesh is drawn as it is. A sample may then see a face of another sheet far behind it;

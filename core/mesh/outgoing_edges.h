@@ -25,6 +25,13 @@ class OutgoingEdges {
     return kNone;
   }
 
+  /// Calls visit(face) for each face with that corner. @pre it is a vertex of the mesh
+  template <class Visit>
+  void for_each_face_at(std::uint32_t vertex, const Visit& visit) const {
+    for (std::uint32_t i = starts_[vertex]; i < starts_[vertex + 1]; ++i)
+      visit(edges_[i].face);
+  }
+
  private:
   struct Edge {
     std::uint32_t to = 0;

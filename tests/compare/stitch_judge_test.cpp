@@ -144,6 +144,29 @@ TEST_CASE("a crossing mesh after a finish, one that is no manifold and one unlik
   CHECK_FALSE(is_good([](StitchStep& s) { s.is_repeatable = false; }));
 }
 
+TEST_CASE("a stitch after which a mesh crosses itself more than before is bad") {
+  StitchStep step;
+  step.mesh = judge_mesh(test::together(test::cube(1.0), test::cube(1.0, Vec3{1.0, 0.9, 0.8})));
+  CHECK(summarize_session({&step, 1}).is_good());  // they came with the mesh
+  step.new_crossings = step.mesh.self_intersections;
+  CHECK_FALSE(summarize_session({&step, 1}).is_good());
+}
+
+TEST_CASE("crossings that a stitch leaves as they were are not its fault") {
+  // Two sheets that cross beside what is scanned.
+  const TriangleMesh given = test::together(test::cube(1.0), test::cube(1.0, Vec3{1.0, 0.9, 0.8}));
+  const Scene scene = scans::scene_of(shapes::sampled(shapes::sphere(), 20'000));
+  AddScan add{.scan = scans::cloud_request(scene, {0, 0, 1}, 0.04)};
+  CpuRasterizer rasterizer;
+  TriangleMesh moved = given;
+  for (Vec3& p : moved.positions)
+    p += Vec3{20.0, 0.0, 0.0};
+  const auto steps = judge_stitches(scene, moved, std::vector<Command>{add}, rasterizer);
+  REQUIRE(steps.size() == 1);
+  CHECK(steps[0].mesh.self_intersections == judge_mesh(given).self_intersections);
+  CHECK(steps[0].new_crossings == 0);
+}
+
 TEST_CASE("the stitches of a ball are good by both methods") {
   const auto automatic = judge_ball(StitchMethod::clear_and_fill, CorrespondenceMethod::depth_band);
   const auto paper = judge_ball(StitchMethod::zipper, CorrespondenceMethod::id_buffer);

@@ -28,6 +28,13 @@ foreach(method auto paper)
   endforeach()
   string(JSON good GET "${report}" good)
   string(JSON commands LENGTH "${report}" commands)
+  string(JSON unlocated GET "${report}" samples unlocated)
+  string(JSON crossings GET "${report}" new_self_intersections)
+  string(JSON missing ERROR_VARIABLE nothing_missing GET "${report}" nothing_to_judge 0)
+  if(method STREQUAL "auto" AND NOT missing STREQUAL "insertions" OR method STREQUAL "paper"
+      AND NOT nothing_missing OR NOT crossings EQUAL 0 OR unlocated LESS 1)
+    message(SEND_ERROR "${method}.report.json, of nothing to judge: ${report}")
+  endif()
   if(NOT good OR commands LESS 3 OR samples_located LESS 500 OR samples_acceptance LESS 0.999)
     message(SEND_ERROR "${method}.report.json: ${report}")
   endif()
@@ -41,13 +48,35 @@ if(left)
   message(SEND_ERROR "sessions of --verify are left: ${left}")
 endif()
 
+# Sharp edges, a thin body and slices, where the nearest face is often one that is not seen.
+foreach(body cube plate)
+  execute_process(COMMAND ${PROGRAM} sample ${body}.ply -o ${body}.xyz --points 30000
+    WORKING_DIRECTORY ${SCRATCH} COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
+foreach(body cube plate contours)
+  execute_process(COMMAND ${RANGEZIP} mesh ${body}.xyz -o ${body}.mesh.ply --method paper --verify
+    WORKING_DIRECTORY ${SCRATCH} RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE err)
+  if(NOT result EQUAL 0 OR NOT "${out}" MATCHES "samples, nearest face: [1-9].*verdict: holds")
+    message(SEND_ERROR "--verify of ${body}: ${result}, ${out}${err}")
+  endif()
+endforeach()
+
 # A mesh that crosses itself while no finish has been made is counted, not judged.
 file(WRITE ${SCRATCH}/crossing.obj "v -2 -1 0\nv 2 -1 0\nv 0 2 0\nv 0 0 -1\nv 0 0.5 1\nv 0 -0.5 1\n"
   "f 1 2 3\nf 4 5 6\n")
 file(WRITE ${SCRATCH}/counted.json [[{"version": 1, "inputs": [],
   "initial_mesh": {"path": "crossing.obj"},
   "commands": [{"command": "smooth", "iterations": 1}]}]])
-expect(0 "1 crossing" stitch counted.json)
+expect(0 "1 crossing" stitch counted.json --json counted.report.json)
+expect(0 "nearest face: .*nothing to judge.*of the meshes alone holds; nothing to judge: samples, "
+  stitch counted.json)
+file(READ ${SCRATCH}/counted.report.json report)
+string(JSON acceptance TYPE "${report}" samples acceptance)
+string(JSON ratio TYPE "${report}" segments ratio_p99)
+string(JSON missing LENGTH "${report}" nothing_to_judge)
+if(NOT "${acceptance} ${ratio} ${missing}" STREQUAL "NULL NULL 3")
+  message(SEND_ERROR "counted.report.json: ${report}")
+endif()
 
 # A referee that finds fault: --verify passes its 1 on as 5, other failures as 6, none there as 1.
 file(MAKE_DIRECTORY ${SCRATCH}/bin)

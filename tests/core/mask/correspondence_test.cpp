@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/base/error.h"
+#include "core/mask/nearest_faces.h"
 #include "raster_cpu/cpu_rasterizer.h"
 #include "tests/support/images.h"
 
@@ -175,6 +176,35 @@ TEST_CASE("the nearest face corresponds, also if it is seen in the next pixel on
   const Correspondence seen =
       find_correspondence(rasterizer, image, estimate_slopes(image), mesh, {}, kAnyFace);
   CHECK(seen.face[{9, 10}] / 2 == 0);
+}
+
+TEST_CASE("a nearest face that is not seen and hangs together with nothing seen is found",
+          "[mask]") {
+  // A sheet at depth 20 up to x = 0, and a wall that goes down from (1, 21) away from the viewer,
+  // over a gap: seen edge on, the wall is in no pixel. The samples lie at 21.2, so from x = -0.5
+  // the sheet is 1.2 away; from x = 0.5 the wall is 0.5, the sheet 1.3.
+  TriangleMesh mesh;
+  mesh.positions = {{-9, -9, -20}, {0, -9, -20}, {0, 9, -20}, {-9, 9, -20}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  for (int k = 0; k <= 18; ++k) {
+    mesh.positions.insert(mesh.positions.end(), {{1, k - 9, -21}, {1, k - 9, -24}});
+    const auto v = static_cast<std::uint32_t>(mesh.positions.size());
+    if (k == 0) continue;
+    mesh.triangles.push_back({v - 4, v - 3, v - 1});
+    mesh.triangles.push_back({v - 4, v - 1, v - 2});
+  }
+  const RangeImage image = level_image(21.2);
+  Grid<PrimitiveId> seen(image.extent(), kNoPrimitive);
+  for (int y = 1; y < 19; ++y) {
+    for (int x = 1; x <= 10; ++x)
+      seen[{x, y}] = 0;
+  }
+  const Grid<PrimitiveId> found = search_nearest_faces(seen, image, mesh, 1.5);
+  for (int y = 2; y < 18; ++y) {
+    CHECK(found[{9, y}] < 2);
+    REQUIRE(found[{10, y}] != kNoPrimitive);
+    CHECK(found[{10, y}] >= 2);
+  }
 }
 
 TEST_CASE("find_correspondence refuses bands that are none", "[mask]") {
