@@ -89,6 +89,7 @@ std::size_t regrow(TriangleMesh& mesh, std::span<const Vec3> points, const Point
   region.upper += Vec3(kPart * h);
   const PointGrid places(left_out, region, 0.5 * kPlace * h);
   Part part = take_part(mesh, places, kPart * h);
+  if (part.mesh.empty()) return 0;  // they are of another body, inside of this one
   const ExtendBorderOptions options{
       .pixel_size = h, .may_reach = [&](const Vec3& p) { return is_near(places, p, kPlace * h); }};
   const ExtendBorderReport extended = extend_border(part.mesh, grid, options, progress);

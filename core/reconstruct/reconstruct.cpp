@@ -128,7 +128,7 @@ class Run {
     scan_fill_views();
     rescan_dense_places();
     rescan_papered_holes();
-    if (has_narrow_gaps_ || may_regrow()) drop_unsupported();
+    prepare_to_regrow();
     finish_mesh();
     check_result();
     return std::move(result_);
@@ -245,6 +245,11 @@ class Run {
     const std::vector<Vec3> directions = views_of(points, recipe, kCoverSamples, kMinNewPoints);
     scan_from(directions, recipe, fill_scan);
     return !directions.empty();
+  }
+
+  /// What still is left out lies behind faces across gaps.
+  void prepare_to_regrow() {
+    if (has_narrow_gaps_ || (may_regrow() && !find_uncovered().samples.empty())) drop_unsupported();
   }
 
   /// Faces across gaps hide what lies in them, make handles, and join what is apart.

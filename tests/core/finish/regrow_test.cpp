@@ -98,5 +98,18 @@ TEST_CASE("regrow leaves a hole that holds no points, and what lies far from poi
   CHECK(mesh.positions == before.positions);
 }
 
+TEST_CASE("regrow leaves points alone that lie far from any face", "[finish]") {
+  const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
+  CAPTURE(seed);
+  std::mt19937_64 engine(seed);
+  std::vector<Vec3> points;
+  add_sheet_points(points, 0.4 * kSide, engine);
+  TriangleMesh mesh = frame(0.0, 2.0, false);
+  append(mesh, frame(0.8 * kSide, 2.0, true));
+  const TriangleMesh before = mesh;
+  REQUIRE(regrow(mesh, points, grid_of(points), kH) == 0);
+  CHECK(mesh.triangles == before.triangles);
+}
+
 }  // namespace
 }  // namespace rangezip
