@@ -199,7 +199,8 @@ TEST_CASE("a nearest face that is not seen and hangs together with nothing seen 
     for (int x = 1; x <= 10; ++x)
       seen[{x, y}] = 0;
   }
-  const Grid<PrimitiveId> found = search_nearest_faces(seen, image, mesh, 1.5);
+  const Grid<PrimitiveId> found =
+      search_nearest_faces(seen, image, mesh, 1.5, NearestFaceSearch::around);
   for (int y = 2; y < 18; ++y) {
     CHECK(found[{9, y}] < 2);
     REQUIRE(found[{10, y}] != kNoPrimitive);
