@@ -63,6 +63,7 @@ Json json_of(const FinishReport& finish) {
           {"flattened_spikes", finish.flattened_spikes},
           {"snapped_vertices", finish.snapped_vertices},
           {"border_steps", finish.border_steps},
+          {"small_angles", finish.small_angles},
           {"dropped_components", finish.dropped_components},
           {"dropped_faces", finish.dropped_faces}};
 }
