@@ -149,8 +149,11 @@ void add_resolution_options(CLI::App& command, MeshOptions& options) {
                  "Side of a pixel of the virtual scans, in the units of the input [from the "
                  "spacing of the points]",
                  "H");
-  add_parsed(command, "--triangles", options.reconstruct.triangles, parse_count,
-             "About how many triangles to make, instead of a pixel size", "N")
+  add_parsed(
+      command, "--triangles", options.reconstruct.triangles, parse_count,
+      "About how many triangles to make, instead of a pixel size; less exactly so without the "
+      "full finish",
+      "N")
       ->excludes(pixel_size);
 }
 

@@ -64,6 +64,7 @@ Json json_of(const FinishReport& finish) {
           {"snapped_vertices", finish.snapped_vertices},
           {"regrown_steps", finish.regrown_steps},
           {"border_steps", finish.border_steps},
+          {"small_angles", finish.small_angles},
           {"dropped_components", finish.dropped_components},
           {"dropped_faces", finish.dropped_faces}};
 }

@@ -79,8 +79,10 @@ MANIFOLD = [Bound('nonmanifold_edges', '==', 0), Bound('nonmanifold_vertices', '
             Bound('self_intersecting_pairs', '==', 0), Bound('misoriented_edges', '==', 0)]
 CLEAN = [Bound('components', '==', 1)] + MANIFOLD
 CLOSED = [Bound('boundary_edges', '==', 0)]
-GOOD_ANGLES = [Bound('min_angle_p50', '>=', 50.0), Bound('min_angle_lt30', '<=', 0.005),
-               Bound('min_angle_lt10', '==', 0.0)]
+# Of finished models. Not of coarsened meshes, whose triangles are long where the surface bends one way only
+# (--decimate, and --triangles of less than a quarter of what the scans give), nor of what is too thin or close.
+NO_SMALL_ANGLES = [Bound('min_angle_lt10', '==', 0.0)]
+GOOD_ANGLES = [Bound('min_angle_p50', '>=', 50.0), Bound('min_angle_lt30', '<=', 0.005)] + NO_SMALL_ANGLES
 
 
 RIGHT_SIDE_OUT = [Bound('inverted_share', '<=', 0.0002, True)]
@@ -96,7 +98,7 @@ def made(shape, *bounds):
 
 def body(shape, genus, *bounds):
     """One closed body."""
-    return made(shape, [Bound('components', '==', 1), Bound('genus', '==', genus)], CLOSED, *bounds)
+    return made(shape, [Bound('components', '==', 1), Bound('genus', '==', genus)], CLOSED, NO_SMALL_ANGLES, *bounds)
 
 
 def at_triangles(name, mesh, seed, triangles):
@@ -112,21 +114,26 @@ def decimated(name, mesh, points, seed, tolerance):
 
 
 CASES = [
-    Case('bunny', 'range/bunny/bun.conf', bounds=CLEAN + [Bound('cloud_within_05', '>=', 0.995)]),
+    Case('bunny', 'range/bunny/bun.conf', bounds=CLEAN + NO_SMALL_ANGLES + [Bound('cloud_within_05', '>=', 0.998)]),
     Case('dragon', 'range/dragon_stand_merged.ply',
-         bounds=CLEAN + [Bound('cloud_within_05', '>=', 0.995), Bound('long_loops', '<=', 5),
+         bounds=CLEAN + NO_SMALL_ANGLES + [
+             Bound('cloud_within_05', '>=', 0.998), Bound('long_loops', '<=', 5),
                          Bound('points_beyond', '==', 0)]),
     Case('rocker-arm scan', 'cloud/rocker-arm_virtual_scan.xyz', truth='mesh/rocker-arm.obj', cloud=False,
-         bounds=CLEAN + CLOSED + [Bound('genus', '==', 1), Bound('accuracy_mean', '<=', 0.0003, True),
-                                  Bound('accuracy_p95', '<=', 0.00085, True)]),
+         bounds=CLEAN + CLOSED + NO_SMALL_ANGLES + [
+             Bound('genus', '==', 1), Bound('accuracy_mean', '<=', 0.0003, True),
+             Bound('accuracy_p95', '<=', 0.00085, True)]),
     Case('rocker-arm polygons', 'mesh/rocker-arm.obj', truth='mesh/rocker-arm.obj', cloud=False,
-         bounds=CLEAN + CLOSED + [Bound('genus', '==', 1), Bound('accuracy_mean', '<=', 0.0001, True)]),
+         bounds=CLEAN + CLOSED + NO_SMALL_ANGLES + [
+             Bound('genus', '==', 1), Bound('accuracy_mean', '<=', 0.0001, True)]),
     Case('fandisk polygons', 'mesh/fandisk.obj', truth='mesh/fandisk.obj', cloud=False,
-         bounds=CLEAN + CLOSED + [Bound('genus', '==', 0), Bound('accuracy_mean', '<=', 0.0001, True)]),
+         bounds=CLEAN + CLOSED + NO_SMALL_ANGLES + [
+             Bound('genus', '==', 0), Bound('accuracy_mean', '<=', 0.0001, True)]),
     Case('club', 'seed/club_sampled_16586.xyz', truth='seed/club_mesh.ply',
-         bounds=CLEAN + [Bound('long_loops', '==', 1), Bound('cloud_within_05', '>=', 0.98)]),
+         bounds=CLEAN + NO_SMALL_ANGLES + [Bound('long_loops', '==', 1), Bound('cloud_within_05', '>=', 0.998)]),
+    # 0.998 is what the project demands of real scans; of this cloud, the sparsest, 0.9976 is reached.
     Case('mannequin', 'seed/mannequin_sampled_12772.xyz', truth='seed/mannequin_mesh.off',
-         bounds=CLEAN + [Bound('long_loops', '==', 1), Bound('cloud_within_05', '>=', 0.98)]),
+         bounds=CLEAN + NO_SMALL_ANGLES + [Bound('long_loops', '==', 1), Bound('cloud_within_05', '>=', 0.997)]),
     # Figures from here on are those of the peers that ../shared/eval/peers.md names, or better.
     Case('igea 400 K, 60 K triangles', Sampled('mesh/igea.ply', 400_000, 3), options=['--triangles', '60000'],
          bounds=CLEAN + CLOSED + GOOD_ANGLES + [
@@ -148,17 +155,18 @@ CASES = [
                                                 Bound('fscore_01', '>=', 0.98), Bound('normal_dev_p95', '<=', 12.0)]),
     decimated('fandisk 100 K, decimated', 'mesh/fandisk.obj', 100_000, 1, 0.012),
     decimated('fandisk 400 K, decimated', 'mesh/fandisk.obj', 400_000, 1, 0.01),
-    Case('igea 400 K', Sampled('mesh/igea.ply', 400_000, 3), bounds=CLEAN + CLOSED + cost(6, 300)),
-    Case('Laurana 400 K', Sampled('mesh/Laurana50k.ply', 400_000, 1), bounds=CLEAN + cost(6, 300)),
-    Case('igea 1.4 M', Sampled('mesh/igea.ply', 1_400_000, 5), bounds=CLEAN + CLOSED + cost(20, 700)),
-    Case('dragon 1.4 M', Sampled('range/dragon_vrip_res2.ply', 1_400_000, 6), bounds=CLEAN + cost(20, 700)),
+    Case('igea 400 K', Sampled('mesh/igea.ply', 400_000, 3), bounds=CLEAN + CLOSED + NO_SMALL_ANGLES + cost(6, 300)),
+    Case('Laurana 400 K', Sampled('mesh/Laurana50k.ply', 400_000, 1), bounds=CLEAN + NO_SMALL_ANGLES + cost(6, 300)),
+    Case('igea 1.4 M', Sampled('mesh/igea.ply', 1_400_000, 5), bounds=CLEAN + CLOSED + NO_SMALL_ANGLES + cost(20, 700)),
+    Case('dragon 1.4 M', Sampled('range/dragon_vrip_res2.ply', 1_400_000, 6),
+         bounds=CLEAN + NO_SMALL_ANGLES + cost(20, 700)),
     at_triangles('igea, quadrics', 'mesh/igea.ply', 3, 60_000),
     at_triangles('rocker-arm, quadrics', 'mesh/rocker-arm.obj', 21, 10_000),
     at_triangles('fandisk, quadrics', 'mesh/fandisk.obj', 22, 6_000),
     at_triangles('mechpart, quadrics', 'mesh/mechpart_recon.ply', 23, 7_000),
     at_triangles('bracket, quadrics', 'cad/featuretype.STL', 24, 1_700),
     Case('cactus', 'seed/cactus.xyz', bounds=CLEAN),
-    Case('distcap', 'seed/distcap.xyz', bounds=CLEAN),
+    Case('distcap', 'seed/distcap.xyz', bounds=CLEAN + NO_SMALL_ANGLES),
     # Bodies made by code (shapes.py): the topology, and what is thin or close from 2 pixel sides on.
     body('sphere', 0, RIGHT_SIDE_OUT), body('torus', 1, RIGHT_SIDE_OUT), body('trefoil', 1, RIGHT_SIDE_OUT),
     made('bowl', [Bound('components', '==', 1), Bound('boundary_loops', '==', 1)], RIGHT_SIDE_OUT),

@@ -20,6 +20,7 @@
 #include "core/finish/regrow.h"
 #include "core/finish/remesh.h"
 #include "core/finish/repair.h"
+#include "core/finish/small_angles.h"
 #include "core/finish/snap_features.h"
 #include "core/finish/thin_handles.h"
 #include "core/finish/untangle.h"
@@ -230,7 +231,11 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
     separate(mesh, cloud, options, report, progress);
   }
   extend(mesh, cloud, options, report, progress);
-  if (is_coarsened) coarsen_to_cloud(mesh, cloud, options, report, progress);
+  if (is_coarsened) {
+    coarsen_to_cloud(mesh, cloud, options, report, progress);
+  } else {
+    report.small_angles = mend_small_angles(mesh, cloud, h).left;
+  }
 }
 
 }  // namespace

@@ -16,13 +16,31 @@ constexpr std::size_t kTrianglesOfPolygons = 100'000;
 /// A pixel becomes two triangles of half its area each, stretched by the tilt of the surface to
 /// the view that won it (measured on the models of the benchmarks: 1.1 on average).
 constexpr double kTrianglesPerPixelArea = 2.0 / 1.1;
+/// The same of clouds whose scans are the mesh: with what estimating the area by the spacing of
+/// points, borders and seams cost. It depends on how the surface lies to the views: measured on
+/// seven clouds, the mesh has 0.80 to 1.08 times as many triangles as were asked for, 0.97 on
+/// average.
+constexpr double kScannedPerPixelArea = 0.905 * kTrianglesPerPixelArea;
+/// Of the spacing: finer pixels show nothing but what is made up between points, where they would
+/// get four in each direction.
+constexpr double kFinestOfSpacing = 0.25;
 /// Of pixels than the edges of a mesh with fewer triangles, at most: scans of up to 64 times as
 /// many show all that such a mesh can, and finer ones take longer.
 constexpr double kFinerThanMesh = 8.0;
 constexpr int kImageMargin = 16;  ///< pixels that framing and rounding may add
 
-double pixel_size_for(double area, std::size_t triangles) {
-  return std::sqrt(kTrianglesPerPixelArea * area / static_cast<double>(triangles));
+double pixel_size_for(double area, std::size_t triangles,
+                      double per_pixel_area = kTrianglesPerPixelArea) {
+  return std::sqrt(per_pixel_area * area / static_cast<double>(triangles));
+}
+
+/// @param area of the surface @param finest side of a pixel that still makes sense
+void check_triangles(std::size_t triangles, double area, double finest) {
+  const double most = std::floor(kScannedPerPixelArea * area / (finest * finest));
+  if (static_cast<double>(triangles) <= most) return;
+  throw InvalidArgument("reconstruct: triangles may be at most " +
+                        std::to_string(static_cast<std::size_t>(std::max(most, 1.0))) +
+                        " for this input, got " + std::to_string(triangles));
 }
 
 /// Points must be drawn larger where the pixel is so fine that one in four would stay empty.
@@ -40,16 +58,22 @@ double finest_pixel_size(const Box& bounds) {
 
 /// What the points or polygons ask for, or the number of triangles.
 /// @param spacing absent if there are polygons only
+/// @param finest_drawn the finest pixel that the rasterizer can draw
 double demanded_pixel_size(const Scene& scene, std::span<const Vec3> samples,
                            const std::optional<Spacing>& spacing,
-                           std::optional<std::size_t> triangles, bool is_remeshed) {
+                           std::optional<std::size_t> triangles, bool is_remeshed,
+                           double finest_drawn) {
   const double area = spacing
                           ? static_cast<double>(samples.size()) * spacing->median * spacing->median
                           : triangle_area(scene);
   const double own =
       spacing ? pixel_size_from_spacing(*spacing) : pixel_size_for(area, kTrianglesOfPolygons);
   if (!triangles) return own;
-  const double demanded = pixel_size_for(area, *triangles);
+  check_triangles(*triangles, area,
+                  std::max(finest_drawn, spacing ? kFinestOfSpacing * spacing->median : 0.0));
+  const bool is_scanned = spacing && !is_remeshed;
+  const double demanded =
+      pixel_size_for(area, *triangles, is_scanned ? kScannedPerPixelArea : kTrianglesPerPixelArea);
   const double finest = is_remeshed ? demanded / kFinerThanMesh : demanded;
   const double suitable = std::min(demanded, std::max(own, finest));
   // Finer pixels would show nothing where points are sparse, and the median tells no area then.
@@ -78,8 +102,8 @@ Resolution choose_resolution(const Scene& scene, std::span<const Vec3> samples,
     chosen.pixel_size = *pixel_size;
   } else {
     const double finest = finest_pixel_size(chosen.bounds);
-    chosen.pixel_size =
-        std::max(finest, demanded_pixel_size(scene, samples, spacing, triangles, is_remeshed));
+    chosen.pixel_size = std::max(
+        finest, demanded_pixel_size(scene, samples, spacing, triangles, is_remeshed, finest));
     chosen.is_of_cloud =
         spacing && chosen.pixel_size <= std::max(finest, pixel_size_from_spacing(*spacing));
   }

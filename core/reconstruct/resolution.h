@@ -26,7 +26,8 @@ struct Resolution {
 /// triangles demand. Of an uneven cloud it is never finer than its own. Never so fine that an image
 /// outgrows the rasterizer.
 /// @param samples the points of the scene, in its order, then area samples of its polygons
-/// @throws InvalidArgument for a pixel side or a target that is not positive.
+/// @throws InvalidArgument for a pixel side or a target that is not positive, and for a target of
+///     more triangles than pixels of a quarter of the point spacing give, or the finest images.
 [[nodiscard]] Resolution choose_resolution(const Scene& scene, std::span<const Vec3> samples,
                                            std::optional<double> pixel_size,
                                            std::optional<std::size_t> triangles, bool is_remeshed);

@@ -238,6 +238,19 @@ TEST_CASE("a target count of triangles sets the resolution", "[reconstruct]") {
   CHECK(static_cast<double>(fine.report.mesh.faces) == Approx(12'000).epsilon(0.25));
 }
 
+TEST_CASE("a number of triangles is nearly met by the scans alone", "[reconstruct]") {
+  const Scene scene = scene_of(shapes::sampled(shapes::sphere(), 60'000));
+  const ReconstructResult scans = run(scene, {.triangles = 12'000, .finish = std::nullopt});
+  CHECK(static_cast<double>(scans.report.mesh.faces) == Approx(12'000).epsilon(0.05));
+}
+
+TEST_CASE("more triangles than the points can tell are refused with the largest number",
+          "[reconstruct]") {
+  const Scene scene = scene_of(shapes::sampled(shapes::sphere(), 2'000));
+  CHECK_THROWS_WITH(run(scene, {.triangles = 1'000'000}),
+                    Catch::Contains("triangles may be at most"));
+}
+
 TEST_CASE("reconstruct refuses what cannot be meshed", "[reconstruct]") {
   CHECK_THROWS_AS(run(Scene{}), InvalidArgument);
   const Scene scene = scene_of(shapes::sampled(shapes::sphere(), 2'000));

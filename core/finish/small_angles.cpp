@@ -1,0 +1,405 @@
+#include "core/finish/small_angles.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/finish/angle_mends.h"
+#include "core/finish/border_gaps.h"
+#include "core/finish/corner_table.h"
+#include "core/finish/face_grid.h"
+#include "core/finish/triangle_shape.h"
+#include "core/mesh/self_intersection.h"
+
+namespace rangezip {
+namespace {
+
+constexpr double kSmallAngle = 0.1737;       ///< sine: 10 degrees and the rounding of a file
+constexpr std::array kTurns{0.8, 0.5, 0.0};  ///< cosines, of faces; the next for what is left
+constexpr int kRounds = 8;                   ///< for each of those
+constexpr std::size_t kMostTries = 64;       ///< of the mends of a face
+constexpr int kRings = 3;                    ///< around small angles: what the rounds may change
+constexpr double kBorderWay = 0.5;           ///< in h, of a vertex of the border
+constexpr double kReach = 1.0;        ///< in h, of points beyond the border, as in extend_border.h
+constexpr double kNegligible = 1e-3;  ///< in h, the same
+/// In h: what is nearer than this to a change tells whether it may be; points within the reach, and
+/// faces that may be nearer to them.
+constexpr double kAround = 2.5;
+constexpr double kCube = 4.0;  ///< in h, of the cubes in which faces are looked up
+constexpr std::uint32_t kNone = CornerTable::kNone;
+
+double angle_of(const std::vector<Vec3>& p, const Triangle& t) {
+  return sine_of_smallest_angle(p[t[0]], p[t[1]], p[t[2]]);
+}
+
+std::vector<std::uint32_t> small_faces(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    if (angle_of(mesh.positions, mesh.triangles[f]) < kSmallAngle) found.push_back(f);
+  }
+  return found;
+}
+
+bool has_flag(const std::vector<std::uint8_t>& flags, const Triangle& t) {
+  return (flags[t[0]] | flags[t[1]] | flags[t[2]]) != 0;
+}
+
+Box box_of(const TriangleMesh& mesh, const Triangle& t) {
+  Box box;
+  for (const std::uint32_t v : t)
+    box.add(mesh.positions[v]);
+  return box;
+}
+
+Box widened(Box box, double margin) {
+  box.lower -= Vec3(margin);
+  box.upper += Vec3(margin);
+  return box;
+}
+
+/// Some faces of a mesh as a mesh of their own, in the same order.
+struct Part {
+  TriangleMesh mesh;
+  std::vector<std::uint32_t> faces;     ///< of the whole, rising, one per face
+  std::vector<std::uint32_t> vertices;  ///< of the whole, one per position
+  std::vector<std::uint32_t> index;     ///< of each vertex of the whole in the part, or kNone
+};
+
+template <class IsIn>
+Part part_of(const TriangleMesh& mesh, const IsIn& is_in) {
+  Part part;
+  part.index.assign(mesh.positions.size(), kNone);
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    if (!is_in(mesh.triangles[f])) continue;
+    Triangle t = mesh.triangles[f];
+    for (std::uint32_t& v : t) {
+      if (part.index[v] == kNone) {
+        part.index[v] = static_cast<std::uint32_t>(part.vertices.size());
+        part.vertices.push_back(v);
+        part.mesh.positions.push_back(mesh.positions[v]);
+      }
+      v = part.index[v];
+    }
+    part.faces.push_back(f);
+    part.mesh.triangles.push_back(t);
+  }
+  return part;
+}
+
+void put_back(const Part& part, TriangleMesh& mesh) {
+  std::vector<std::uint8_t> goes(mesh.triangles.size(), 0);
+  for (const std::uint32_t f : part.faces)
+    goes[f] = 1;
+  remove_triangles(mesh.triangles, goes);
+  for (const Triangle& t : part.mesh.triangles)
+    mesh.triangles.push_back({part.vertices[t[0]], part.vertices[t[1]], part.vertices[t[2]]});
+  for (std::size_t v = 0; v < part.vertices.size(); ++v)
+    mesh.positions[part.vertices[v]] = part.mesh.positions[v];
+  remove_unused_vertices(mesh);
+}
+
+/// The cubes of a grid that boxes meet, for asking whether another box meets one.
+class Cubes {
+ public:
+  explicit Cubes(double side) : per_side_(1.0 / side) {}
+
+  void add(const Box& box) {
+    for_each(box, [&](const Cube& cube) {
+      cubes_.push_back(cube);
+      return false;
+    });
+  }
+  void sort() {
+    std::sort(cubes_.begin(), cubes_.end());
+    cubes_.erase(std::unique(cubes_.begin(), cubes_.end()), cubes_.end());
+  }
+  /// @pre sort()
+  [[nodiscard]] bool meet(const Box& box) const {
+    return for_each(box, [&](const Cube& cube) {
+      return std::binary_search(cubes_.begin(), cubes_.end(), cube);
+    });
+  }
+
+ private:
+  using Cube = std::array<std::int64_t, 3>;
+
+  [[nodiscard]] Cube cube_at(const Vec3& place) const {
+    return {static_cast<std::int64_t>(std::floor(place.x * per_side_)),
+            static_cast<std::int64_t>(std::floor(place.y * per_side_)),
+            static_cast<std::int64_t>(std::floor(place.z * per_side_))};
+  }
+  /// Until `visit` says that it is enough. @return whether it did
+  template <class Visit>
+  bool for_each(const Box& box, const Visit& visit) const {
+    const Cube lower = cube_at(box.lower), upper = cube_at(box.upper);
+    for (std::int64_t x = lower[0]; x <= upper[0]; ++x) {
+      for (std::int64_t y = lower[1]; y <= upper[1]; ++y) {
+        for (std::int64_t z = lower[2]; z <= upper[2]; ++z) {
+          if (visit({x, y, z})) return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  double per_side_;
+  std::vector<Cube> cubes_;
+};
+
+/// Flags of the vertices of the faces that have a flagged vertex.
+std::vector<std::uint8_t> with_neighbors(const TriangleMesh& mesh,
+                                         const std::vector<std::uint8_t>& flags) {
+  std::vector<std::uint8_t> more = flags;
+  for (const Triangle& t : mesh.triangles) {
+    if (!has_flag(flags, t)) continue;
+    for (const std::uint32_t v : t)
+      more[v] = 1;
+  }
+  return more;
+}
+
+/// Flags of the vertices of these faces and some rings around.
+std::vector<std::uint8_t> vertices_around(const TriangleMesh& mesh,
+                                          const std::vector<std::uint32_t>& faces) {
+  std::vector<std::uint8_t> flags(mesh.positions.size(), 0);
+  for (const std::uint32_t f : faces) {
+    for (const std::uint32_t v : mesh.triangles[f])
+      flags[v] = 1;
+  }
+  for (int ring = 0; ring < kRings; ++ring)
+    flags = with_neighbors(mesh, flags);
+  return flags;
+}
+
+/// The faces near those with a flagged vertex.
+Part part_around(const TriangleMesh& mesh, const std::vector<std::uint8_t>& flags, double h) {
+  Cubes near(kCube * h);
+  for (const Triangle& t : mesh.triangles) {
+    if (has_flag(flags, t)) near.add(widened(box_of(mesh, t), kAround * h));
+  }
+  near.sort();
+  return part_of(mesh, [&](const Triangle& t) { return near.meet(box_of(mesh, t)); });
+}
+
+/// A mesh after a mend, and which of its faces are new.
+struct Mended {
+  TriangleMesh mesh;
+  std::vector<std::uint32_t> changed;
+};
+
+/// The surroundings of a face, on which its mends are tried.
+class Spot {
+ public:
+  Spot(const TriangleMesh& mesh, const CornerTable& table, const std::vector<AngleMend>& mends,
+       const PointGrid& cloud, double h)
+      : part_(part_near(mesh, table, mends, h)),
+        cloud_(cloud),
+        h_(h),
+        table_(part_.mesh.triangles, part_.mesh.positions.size()),
+        faces_(part_.mesh, table_, kReach * h),
+        is_changed_(part_.mesh.positions.size(), 0) {
+    for (const AngleMend& mend : mends) {
+      for (const std::uint32_t f : mend.gone) {
+        for (const std::uint32_t v : mesh.triangles[f])
+          is_changed_[part_.index[v]] = 1;
+      }
+    }
+    for (std::uint32_t v = 0; v < is_changed_.size(); ++v)
+      is_at_border_ = is_at_border_ || (is_changed_[v] != 0 && table_.is_boundary(v));
+    beyond_ = kNegligible * h;
+    if (is_at_border_) beyond_ = std::max(beyond_, farthest_beyond(part_.mesh, table_, faces_));
+  }
+
+  /// Whether with the mend no faces cross, and no point is beyond the border, or none farther than
+  /// there is without.
+  [[nodiscard]] bool allows(const AngleMend& mend) const {
+    const Mended mended = apply(mend);
+    if (!self_intersections(mended.mesh, mended.changed).empty()) return false;
+    if (!is_at_border_) return true;
+    const CornerTable table(mended.mesh.triangles, mended.mesh.positions.size());
+    const FaceGrid faces(mended.mesh, table, kReach * h_);
+    return farthest_beyond(mended.mesh, table, faces) <= beyond_;
+  }
+
+ private:
+  static Part part_near(const TriangleMesh& mesh, const CornerTable& table,
+                        const std::vector<AngleMend>& mends, double h) {
+    Box box;
+    for (const AngleMend& mend : mends) {
+      for (const std::uint32_t f : mend.gone) {
+        for (const std::uint32_t v : mesh.triangles[f])
+          table.for_each_neighbor(v, [&](std::uint32_t w) { box.add(mesh.positions[w]); });
+      }
+    }
+    box = widened(box, kAround * h);
+    return part_of(mesh, [&](const Triangle& t) { return overlap(box, box_of(mesh, t)); });
+  }
+  static bool overlap(const Box& a, const Box& b) {
+    return glm::all(glm::lessThanEqual(a.lower, b.upper)) &&
+           glm::all(glm::lessThanEqual(b.lower, a.upper));
+  }
+
+  [[nodiscard]] Mended apply(const AngleMend& mend) const {
+    Mended mended{part_.mesh, {}};
+    std::vector<std::uint8_t> goes(part_.faces.size(), 0);
+    for (const std::uint32_t f : mend.gone)
+      goes[static_cast<std::size_t>(std::lower_bound(part_.faces.begin(), part_.faces.end(), f) -
+                                    part_.faces.begin())] = 1;
+    auto& triangles = mended.mesh.triangles;
+    remove_triangles(triangles, goes);
+    for (const Triangle& t : mend.faces) {
+      mended.changed.push_back(static_cast<std::uint32_t>(triangles.size()));
+      triangles.push_back({part_.index[t[0]], part_.index[t[1]], part_.index[t[2]]});
+    }
+    if (mend.vertex != kNone) mended.mesh.positions[part_.index[mend.vertex]] = mend.place;
+    return mended;
+  }
+
+  /// Of points beyond border edges at what changes, or that lay there before.
+  [[nodiscard]] double farthest_beyond(const TriangleMesh& mesh, const CornerTable& table,
+                                       const FaceGrid& faces) const {
+    double farthest = 0.0;
+    for (const BorderGap& gap :
+         find_border_gaps(mesh, table, faces, cloud_, {kReach * h_, kNegligible * h_})) {
+      if (has_flag(is_changed_, table.triangle(gap.corner / 3)) || was_at_change(gap.point))
+        farthest = std::max(farthest, gap.beyond);
+    }
+    return farthest;
+  }
+  [[nodiscard]] bool was_at_change(const Vec3& point) const {
+    const std::uint32_t face = faces_.nearest_face(point, kReach * h_);
+    return face != kNone && has_flag(is_changed_, table_.triangle(face));
+  }
+
+  Part part_;
+  const PointGrid& cloud_;
+  double h_;
+  CornerTable table_;
+  FaceGrid faces_;
+  std::vector<std::uint8_t> is_changed_;  // per position: a face around it may change
+  bool is_at_border_ = false;
+  double beyond_ = 0.0;  // how far points are at first
+};
+
+class Round {
+ public:
+  /// @param may_change per position
+  Round(TriangleMesh& mesh, const std::vector<std::uint8_t>& may_change, const PointGrid& cloud,
+        double h, double max_turn)
+      : mesh_(mesh),
+        cloud_(cloud),
+        h_(h),
+        options_{max_turn, kBorderWay * h},
+        table_(mesh.triangles, mesh.positions.size()),
+        is_busy_(may_change) {
+    for (std::uint8_t& flag : is_busy_)
+      flag = flag != 0 ? 0 : 1;
+  }
+
+  /// The smallest angles first; no two mends change faces around neighbours.
+  /// @return number of faces mended
+  std::size_t run() {
+    std::vector<std::pair<double, std::uint32_t>> order;
+    for (const std::uint32_t f : small_faces(mesh_))
+      order.emplace_back(angle_of(mesh_.positions, mesh_.triangles[f]), f);
+    std::sort(order.begin(), order.end());
+    for (const auto& [angle, face] : order)
+      mend(face);
+    while (!chosen_.empty()) {
+      const std::vector<std::uint8_t> fails = apply();
+      if (std::find(fails.begin(), fails.end(), 1) == fails.end()) return chosen_.size();
+      std::size_t kept = 0;
+      for (std::size_t i = 0; i < chosen_.size(); ++i) {
+        if (fails[i] == 0 && kept++ != i) chosen_[kept - 1] = std::move(chosen_[i]);
+      }
+      chosen_.resize(kept);
+    }
+    return 0;
+  }
+
+ private:
+  /// Chooses the best mend that the surroundings allow.
+  void mend(std::uint32_t face) {
+    std::vector<AngleMend> mends = angle_mends(face, mesh_.positions, table_, options_);
+    std::erase_if(mends, [&](const AngleMend& mend) {
+      return std::any_of(mend.gone.begin(), mend.gone.end(),
+                         [&](std::uint32_t f) { return has_flag(is_busy_, mesh_.triangles[f]); });
+    });
+    if (mends.size() > kMostTries) mends.resize(kMostTries);
+    if (mends.empty()) return;
+    const Spot spot(mesh_, table_, mends, cloud_, h_);
+    const auto best = std::find_if(mends.begin(), mends.end(),
+                                   [&](const AngleMend& mend) { return spot.allows(mend); });
+    if (best == mends.end()) return;
+    for (const std::uint32_t f : best->gone) {
+      for (const std::uint32_t v : mesh_.triangles[f])
+        table_.for_each_neighbor(v, [&](std::uint32_t w) { is_busy_[w] = 1; });
+    }
+    chosen_.push_back(std::move(*best));
+  }
+
+  /// Makes all changes, unless some of the faces that come cross each other. @return flags of those
+  std::vector<std::uint8_t> apply() {
+    TriangleMesh changed = mesh_;
+    std::vector<std::uint8_t> goes(mesh_.triangles.size(), 0);
+    for (const AngleMend& mend : chosen_) {
+      for (const std::uint32_t f : mend.gone)
+        goes[f] = 1;
+      if (mend.vertex != kNone) changed.positions[mend.vertex] = mend.place;
+    }
+    remove_triangles(changed.triangles, goes);
+    const std::size_t first = changed.triangles.size();
+    std::vector<std::uint32_t> faces, mend_of;
+    for (std::uint32_t i = 0; i < chosen_.size(); ++i) {
+      for (const Triangle& t : chosen_[i].faces) {
+        faces.push_back(static_cast<std::uint32_t>(changed.triangles.size()));
+        mend_of.push_back(i);
+        changed.triangles.push_back(t);
+      }
+    }
+    std::vector<std::uint8_t> fails(chosen_.size(), 0);
+    for (const auto& [i, j] : self_intersections(changed, faces)) {
+      for (const std::uint32_t f : {i, j}) {
+        if (f >= first) fails[mend_of[f - first]] = 1;
+      }
+    }
+    if (std::find(fails.begin(), fails.end(), 1) == fails.end()) mesh_ = std::move(changed);
+    return fails;
+  }
+
+  TriangleMesh& mesh_;
+  const PointGrid& cloud_;
+  double h_;
+  AngleMendOptions options_;
+  CornerTable table_;
+  std::vector<std::uint8_t> is_busy_;  // per position: it or what is around changes, or must not
+  std::vector<AngleMend> chosen_;
+};
+
+}  // namespace
+
+SmallAngleReport mend_small_angles(TriangleMesh& mesh, const PointGrid& cloud, double pixel_size) {
+  SmallAngleReport report;
+  const std::vector<std::uint32_t> faces = small_faces(mesh);
+  if (faces.empty()) return report;
+  const std::vector<std::uint8_t> flags = vertices_around(mesh, faces);
+  Part part = part_around(mesh, flags, pixel_size);
+  std::vector<std::uint8_t> may_change(part.vertices.size());
+  for (std::size_t v = 0; v < may_change.size(); ++v)
+    may_change[v] = flags[part.vertices[v]];
+  for (const double turn : kTurns) {
+    for (int round = 0; round < kRounds; ++round) {
+      const std::size_t mended = Round(part.mesh, may_change, cloud, pixel_size, turn).run();
+      if (mended == 0) break;
+      report.mended += mended;
+    }
+  }
+  report.left = small_faces(part.mesh).size();
+  if (report.mended > 0) put_back(part, mesh);
+  return report;
+}
+
+}  // namespace rangezip

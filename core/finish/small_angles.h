@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+
+#include "core/finish/point_grid.h"
+#include "core/mesh/triangle_mesh.h"
+
+namespace rangezip {
+
+struct SmallAngleReport {
+  std::size_t mended = 0;  ///< places where faces changed
+  std::size_t left = 0;    ///< faces with an angle under 10 degrees
+};
+
+/// Mends the last faces with an angle under 10 degrees, also at the border, where they come from
+/// steps towards the end of the cloud: in rounds, each such face gets the best of its mends
+/// (core/finish/angle_mends.h) with which no faces cross and no point of the cloud gets beyond the
+/// border. What has none stays. The topology does, and without self-intersections before there are
+/// none after. Only the faces around such angles are looked at closely.
+/// Cost: a pass over the mesh; with such faces, another and what is around them.
+/// @param pixel_size h, model units
+/// @pre oriented, manifold (core/finish/clean_topology.h)
+SmallAngleReport mend_small_angles(TriangleMesh& mesh, const PointGrid& cloud, double pixel_size);
+
+}  // namespace rangezip
