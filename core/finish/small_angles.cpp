@@ -107,10 +107,7 @@ class Cubes {
   explicit Cubes(double side) : per_side_(1.0 / side) {}
 
   void add(const Box& box) {
-    for_each(box, [&](const Cube& cube) {
-      cubes_.push_back(cube);
-      return false;
-    });
+    for_each(box, [&](const Cube& cube) { cubes_.push_back(cube); });
   }
   void sort() {
     std::sort(cubes_.begin(), cubes_.end());
@@ -118,9 +115,11 @@ class Cubes {
   }
   /// @pre sort()
   [[nodiscard]] bool meet(const Box& box) const {
-    return for_each(box, [&](const Cube& cube) {
-      return std::binary_search(cubes_.begin(), cubes_.end(), cube);
+    bool found = false;
+    for_each(box, [&](const Cube& cube) {
+      found = found || std::binary_search(cubes_.begin(), cubes_.end(), cube);
     });
+    return found;
   }
 
  private:
@@ -131,18 +130,15 @@ class Cubes {
             static_cast<std::int64_t>(std::floor(place.y * per_side_)),
             static_cast<std::int64_t>(std::floor(place.z * per_side_))};
   }
-  /// Until `visit` says that it is enough. @return whether it did
   template <class Visit>
-  bool for_each(const Box& box, const Visit& visit) const {
+  void for_each(const Box& box, const Visit& visit) const {
     const Cube lower = cube_at(box.lower), upper = cube_at(box.upper);
     for (std::int64_t x = lower[0]; x <= upper[0]; ++x) {
       for (std::int64_t y = lower[1]; y <= upper[1]; ++y) {
-        for (std::int64_t z = lower[2]; z <= upper[2]; ++z) {
-          if (visit({x, y, z})) return true;
-        }
+        for (std::int64_t z = lower[2]; z <= upper[2]; ++z)
+          visit({x, y, z});
       }
     }
-    return false;
   }
 
   double per_side_;
