@@ -21,8 +21,6 @@ constexpr double kMaxBridgeLength = 4.0;
 /// Cosines: between the two faces of a bridge, and between them and the faces beside it.
 constexpr double kMinCosineInside = 0.3;
 constexpr double kMinCosineBeside = -0.3;
-/// How near the middle of a bridge's face has a point.
-constexpr SupportReach kSupport{.pixels = 0.75, .spacings = 1.5};
 
 class Bridger {
  public:
@@ -72,7 +70,7 @@ class Bridger {
     if (cloud_.empty()) return true;
     const auto& [a, b, c] = t;
     const auto& p = mesh_.positions;
-    return is_supported(cloud_, (p[a] + p[b] + p[c]) / 3.0, h_, kSupport);
+    return is_supported(cloud_, (p[a] + p[b] + p[c]) / 3.0, h_, kFaceSupport);
   }
 
   /// Tries the pairs of two loops, the nearest first.

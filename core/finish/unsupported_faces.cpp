@@ -11,8 +11,6 @@
 namespace rangezip {
 namespace {
 
-/// Of places of a face.
-constexpr SupportReach kReach{.pixels = 0.75, .spacings = 1.5};
 /// In h: how far from a face the points next to it may be.
 constexpr double kFarthest = 6.0;
 constexpr std::size_t kNeighbors = 16;  ///< that tell the spacing, as in core/plan/spacing.h
@@ -47,13 +45,14 @@ bool is_supported(const TriangleMesh& mesh, const Triangle& face, const PointGri
                   double h) {
   const Vec3 &a = mesh.positions[face[0]], &b = mesh.positions[face[1]],
              &c = mesh.positions[face[2]];
-  const double long_side = 2.0 * kReach.pixels * h;
+  const double long_side = 2.0 * kFaceSupport.pixels * h;
   const double longest =
       std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)});
   if (longest <= long_side * long_side) return true;
   const std::array<Vec3, 4> places{(a + b + c) / 3.0, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)};
-  return std::all_of(places.begin(), places.end(),
-                     [&](const Vec3& place) { return is_supported(cloud, place, h, kReach); });
+  return std::all_of(places.begin(), places.end(), [&](const Vec3& place) {
+    return is_supported(cloud, place, h, kFaceSupport);
+  });
 }
 
 }  // namespace
@@ -75,7 +74,7 @@ std::size_t drop_unsupported_faces(TriangleMesh& mesh, std::span<const Vec3> clo
   Box region = bounds_of(mesh);
   region.lower -= Vec3(kFarthest * pixel_size);
   region.upper += Vec3(kFarthest * pixel_size);
-  const PointGrid points(cloud, region, kReach.pixels * pixel_size);
+  const PointGrid points(cloud, region, kFaceSupport.pixels * pixel_size);
   const std::size_t before = mesh.triangles.size();
   std::vector<std::uint8_t> is_dropped(before, 0);
   parallel_for(before, kGrain, [&](std::size_t begin, std::size_t end) {

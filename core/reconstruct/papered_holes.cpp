@@ -18,8 +18,6 @@
 namespace rangezip {
 namespace {
 
-/// How near a face has points that is no paper.
-constexpr SupportReach kSupport{.pixels = 0.75, .spacings = 1.5};
 /// In h: faces of one place are no farther apart.
 constexpr double kTogether = 1.0;
 /// In square h: less is left without a point by chance.
@@ -58,7 +56,7 @@ Faces faces_without_points(const TriangleMesh& mesh, const PointGrid& cloud, dou
     for (std::size_t f = begin; f < end; ++f) {
       const std::array<Vec3, 4> places = places_on(mesh, mesh.triangles[f]);
       const bool has_points = std::all_of(places.begin(), places.end(), [&](const Vec3& place) {
-        return is_supported(cloud, place, h, kSupport);
+        return is_supported(cloud, place, h, kFaceSupport);
       });
       is_bare[f] = has_points ? 0 : 1;
     }
@@ -137,7 +135,8 @@ PaperedHoles find_papered_holes(std::span<const Vec3> points, const TriangleMesh
   Box region = bounds_of(mesh);
   region.lower -= Vec3(kRegionMargin * h);
   region.upper += Vec3(kRegionMargin * h);
-  const Faces bare = faces_without_points(mesh, PointGrid(points, region, kSupport.pixels * h), h);
+  const Faces bare =
+      faces_without_points(mesh, PointGrid(points, region, kFaceSupport.pixels * h), h);
   if (bare.centers.empty()) return {};
   const std::vector<Vec3> near = points_near(points, PointGrid(bare.centers, region, h), kNear * h);
   const PointGrid around(near, region, 0.5 * h);

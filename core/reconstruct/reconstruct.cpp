@@ -45,7 +45,7 @@ constexpr double kMinNewPoints = 40;  ///< that a view must add: fewer are a few
 /// Of the samples: less is left out by noise and in the pockets of real scans, where more views
 /// make handles rather than surface.
 constexpr double kUncoveredShare = 0.01;
-constexpr double kUncoveredShareIfClean = 0.002;
+constexpr double kUncoveredShareIfClean = 0.002;  ///< less is left to regrow()
 /// Of the samples: of narrow gaps more is left out, whatever the views, than of deep pockets.
 constexpr double kNarrowShare = 0.03;
 constexpr std::size_t kJudgedSamples = 100'000;
@@ -194,20 +194,16 @@ class Run {
   }
 
   /// Samples of places farther from the mesh than a pixel side, out of kJudgedSamples.
-  struct Uncovered {
-    std::vector<Vec3> samples;
-    double share = 0.0;
-  };
-
-  [[nodiscard]] Uncovered find_uncovered() const {
+  [[nodiscard]] std::vector<Vec3> uncovered_samples() const {
     std::vector<Vec3> chosen;
     for (const std::size_t index : spread_indices(samples_.size(), kJudgedSamples))
       chosen.push_back(samples_[index]);
-    Uncovered uncovered;
-    uncovered.samples = left_out_points(chosen, *session_.mesh(), recipe_.pixel_size);
-    uncovered.share =
-        static_cast<double>(uncovered.samples.size()) / static_cast<double>(chosen.size());
-    return uncovered;
+    return left_out_points(chosen, *session_.mesh(), recipe_.pixel_size);
+  }
+
+  [[nodiscard]] double share_of(const std::vector<Vec3>& uncovered) const {
+    return static_cast<double>(uncovered.size()) /
+           static_cast<double>(std::min(samples_.size(), kJudgedSamples));
   }
 
   /// The plan was made for a part of the points in small images: what it overlooked, deep pockets
@@ -216,16 +212,16 @@ class Run {
   /// the caller has said how many views there are to be.
   void scan_uncovered() {
     if (options_.views) return;
-    Uncovered uncovered = find_uncovered();
+    std::vector<Vec3> uncovered = uncovered_samples();
     const double least_share = is_clean_ ? kUncoveredShareIfClean : kUncoveredShare;
-    for (int round = 0; round < kCoverRounds && uncovered.share >= least_share; ++round) {
-      const double before = uncovered.share;
-      if (!scan_points(uncovered.samples, recipe_)) break;
-      uncovered = find_uncovered();
-      if (uncovered.share > kWorthwhile * before) break;
+    for (int round = 0; round < kCoverRounds && share_of(uncovered) >= least_share; ++round) {
+      const double before = share_of(uncovered);
+      if (!scan_points(uncovered, recipe_)) break;
+      uncovered = uncovered_samples();
+      if (share_of(uncovered) > kWorthwhile * before) break;
     }
     // Where contours lie apart every face is far from points, and none across a gap can be told.
-    has_narrow_gaps_ = uncovered.share >= kNarrowShare && recipe_.gap == 0.0;
+    has_narrow_gaps_ = share_of(uncovered) >= kNarrowShare && recipe_.gap == 0.0;
     if (has_narrow_gaps_) scan_narrow_gaps();
     clock_.finish("uncovered");
   }
@@ -235,8 +231,8 @@ class Run {
     recipe.pixel_size = recipe.vote_pixel_size = kCoverPixel * recipe_.pixel_size;
     for (int round = 0; round < kNarrowRounds; ++round) {
       drop_unsupported();
-      const Uncovered uncovered = find_uncovered();
-      if (uncovered.share < kUncoveredShare || !scan_points(uncovered.samples, recipe)) break;
+      const std::vector<Vec3> uncovered = uncovered_samples();
+      if (share_of(uncovered) < kUncoveredShare || !scan_points(uncovered, recipe)) break;
     }
   }
 
@@ -249,7 +245,7 @@ class Run {
 
   /// What still is left out lies behind faces across gaps.
   void prepare_to_regrow() {
-    if (has_narrow_gaps_ || (may_regrow() && !find_uncovered().samples.empty())) drop_unsupported();
+    if (has_narrow_gaps_ || (may_regrow() && !uncovered_samples().empty())) drop_unsupported();
   }
 
   /// Faces across gaps hide what lies in them, make handles, and join what is apart.
