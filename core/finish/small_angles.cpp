@@ -11,6 +11,7 @@
 #include "core/finish/border_gaps.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/face_grid.h"
+#include "core/finish/face_part.h"
 #include "core/finish/triangle_shape.h"
 #include "core/mesh/self_intersection.h"
 
@@ -60,45 +61,12 @@ Box widened(Box box, double margin) {
   return box;
 }
 
-/// Some faces of a mesh as a mesh of their own, in the same order.
-struct Part {
-  TriangleMesh mesh;
-  std::vector<std::uint32_t> faces;     ///< of the whole, rising, one per face
-  std::vector<std::uint32_t> vertices;  ///< of the whole, one per position
-  std::vector<std::uint32_t> index;     ///< of each vertex of the whole in the part, or kNone
-};
-
 template <class IsIn>
-Part part_of(const TriangleMesh& mesh, const IsIn& is_in) {
-  Part part;
-  part.index.assign(mesh.positions.size(), kNone);
-  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
-    if (!is_in(mesh.triangles[f])) continue;
-    Triangle t = mesh.triangles[f];
-    for (std::uint32_t& v : t) {
-      if (part.index[v] == kNone) {
-        part.index[v] = static_cast<std::uint32_t>(part.vertices.size());
-        part.vertices.push_back(v);
-        part.mesh.positions.push_back(mesh.positions[v]);
-      }
-      v = part.index[v];
-    }
-    part.faces.push_back(f);
-    part.mesh.triangles.push_back(t);
-  }
-  return part;
-}
-
-void put_back(const Part& part, TriangleMesh& mesh) {
-  std::vector<std::uint8_t> goes(mesh.triangles.size(), 0);
-  for (const std::uint32_t f : part.faces)
-    goes[f] = 1;
-  remove_triangles(mesh.triangles, goes);
-  for (const Triangle& t : part.mesh.triangles)
-    mesh.triangles.push_back({part.vertices[t[0]], part.vertices[t[1]], part.vertices[t[2]]});
-  for (std::size_t v = 0; v < part.vertices.size(); ++v)
-    mesh.positions[part.vertices[v]] = part.mesh.positions[v];
-  remove_unused_vertices(mesh);
+FacePart part_of(const TriangleMesh& mesh, const IsIn& is_in) {
+  std::vector<std::uint8_t> flags(mesh.triangles.size());
+  std::transform(mesh.triangles.begin(), mesh.triangles.end(), flags.begin(),
+                 [&](const Triangle& t) { return static_cast<std::uint8_t>(is_in(t) ? 1 : 0); });
+  return face_part(mesh, flags);
 }
 
 /// The cubes of a grid that boxes meet, for asking whether another box meets one.
@@ -171,7 +139,7 @@ std::vector<std::uint8_t> vertices_around(const TriangleMesh& mesh,
 }
 
 /// The faces near those with a flagged vertex.
-Part part_around(const TriangleMesh& mesh, const std::vector<std::uint8_t>& flags, double h) {
+FacePart part_around(const TriangleMesh& mesh, const std::vector<std::uint8_t>& flags, double h) {
   Cubes near(kCube * h);
   for (const Triangle& t : mesh.triangles) {
     if (has_flag(flags, t)) near.add(widened(box_of(mesh, t), kAround * h));
@@ -221,8 +189,8 @@ class Spot {
   }
 
  private:
-  static Part part_near(const TriangleMesh& mesh, const CornerTable& table,
-                        const std::vector<AngleMend>& mends, double h) {
+  static FacePart part_near(const TriangleMesh& mesh, const CornerTable& table,
+                            const std::vector<AngleMend>& mends, double h) {
     Box box;
     for (const AngleMend& mend : mends) {
       for (const std::uint32_t f : mend.gone) {
@@ -270,7 +238,7 @@ class Spot {
     return face != kNone && has_flag(is_changed_, table_.triangle(face));
   }
 
-  Part part_;
+  FacePart part_;
   const PointGrid& cloud_;
   double h_;
   CornerTable table_;
@@ -382,7 +350,7 @@ SmallAngleReport mend_small_angles(TriangleMesh& mesh, const PointGrid& cloud, d
   const std::vector<std::uint32_t> faces = small_faces(mesh);
   if (faces.empty()) return report;
   const std::vector<std::uint8_t> flags = vertices_around(mesh, faces);
-  Part part = part_around(mesh, flags, pixel_size);
+  FacePart part = part_around(mesh, flags, pixel_size);
   std::vector<std::uint8_t> may_change(part.vertices.size());
   for (std::size_t v = 0; v < may_change.size(); ++v)
     may_change[v] = flags[part.vertices[v]];
@@ -394,7 +362,9 @@ SmallAngleReport mend_small_angles(TriangleMesh& mesh, const PointGrid& cloud, d
     }
   }
   report.left = small_faces(part.mesh).size();
-  if (report.mended > 0) put_back(part, mesh);
+  if (report.mended == 0) return report;
+  put_back(std::move(part), mesh);
+  remove_unused_vertices(mesh);
   return report;
 }
 

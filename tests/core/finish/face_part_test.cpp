@@ -1,0 +1,62 @@
+#include "core/finish/face_part.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/mesh/mesh_report.h"
+#include "tests/support/shapes.h"
+
+namespace rangezip {
+namespace {
+
+std::vector<Triangle> sorted_faces(std::vector<Triangle> faces) {
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+std::vector<std::uint8_t> left_half(const TriangleMesh& mesh) {
+  std::vector<std::uint8_t> flags;
+  for (const Triangle& t : mesh.triangles)
+    flags.push_back(mesh.positions[t[0]].x < 0.0 ? 1 : 0);
+  return flags;
+}
+
+TEST_CASE("a part of a mesh that is put back unchanged leaves the same faces at the same places",
+          "[finish]") {
+  const TriangleMesh before = shapes::square_sheet(8);
+  TriangleMesh mesh = before;
+  FacePart part = face_part(mesh, left_half(mesh));
+  REQUIRE(!part.faces.empty());
+  REQUIRE(part.faces.size() < mesh.triangles.size());
+  REQUIRE(part.mesh.positions.size() == part.vertices.size());
+  put_back(std::move(part), mesh);
+  CHECK(mesh.positions == before.positions);
+  CHECK(sorted_faces(mesh.triangles) == sorted_faces(before.triangles));
+}
+
+TEST_CASE("what is done to a part is done to the whole, new vertices included", "[finish]") {
+  TriangleMesh mesh = shapes::square_sheet(8);
+  const std::size_t vertices = mesh.positions.size(), faces = mesh.triangles.size();
+  FacePart part = face_part(mesh, left_half(mesh));
+  // The first face of the part becomes three around its centre.
+  const auto [a, b, c] = part.mesh.triangles[0];
+  const auto& p = part.mesh.positions;
+  const Vec3 centre = (p[a] + p[b] + p[c]) / 3.0;
+  const auto tip = static_cast<std::uint32_t>(p.size());
+  part.mesh.positions.push_back(centre);
+  part.mesh.triangles[0] = {a, b, tip};
+  part.mesh.triangles.push_back({b, c, tip});
+  part.mesh.triangles.push_back({c, a, tip});
+  put_back(std::move(part), mesh);
+  REQUIRE(mesh.positions.size() == vertices + 1);
+  CHECK(mesh.positions.back() == centre);
+  CHECK(mesh.triangles.size() == faces + 2);
+  CHECK(report_mesh(mesh).is_manifold());
+  CHECK(report_mesh(mesh).euler == 1);
+}
+
+}  // namespace
+}  // namespace rangezip
