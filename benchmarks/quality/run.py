@@ -175,8 +175,8 @@ CASES = [
     body('cube', 0, RIGHT_SIDE_OUT),
     body('pocket 0.5', 0), body('pocket 1', 0), body('pocket 2', 0),
     made('spheres 0'), made('spheres 0.3'), made('spheres 0.8'),
-    made('spheres 2', CLOSED, [Bound('components', '==', 2), Bound('euler', '==', 4)]),
-    made('spheres 3', CLOSED, [Bound('components', '==', 2), Bound('euler', '==', 4)]),
+    *(made(f'{two} {gap}', CLOSED, [Bound('components', '==', 2), Bound('euler', '==', 4)])
+      for two, gaps in (('spheres', (2, 3)), ('slabs', (2, 3, 4)), ('bars', (2, 3, 4))) for gap in gaps),
     body('noisy 0.05', 1, RIGHT_SIDE_OUT), body('noisy 0.1', 1, RIGHT_SIDE_OUT), body('noisy 0.2', 1, RIGHT_SIDE_OUT),
     body('contours', 1),
     body('density', 0, [Bound('accuracy_rms', '<=', 0.0001, True)]),

@@ -269,6 +269,19 @@ def two_spheres(gap, radius=30.0):
     return joined((left[0] - [reach, 0, 0], left[1]), (right[0] + [reach, 0, 0], right[1]))
 
 
+def slabs(gap, side=30.0, thickness=6.0):
+    """Two square slabs, one over the other."""
+    half = side / 2
+    return (Blocks().add([-half, -half, -thickness - gap / 2], [half, half, -gap / 2])
+            .add([-half, -half, gap / 2], [half, half, thickness + gap / 2])).surface()
+
+
+def bars(gap):
+    """Two crossing bars, one over the other."""
+    return (Blocks().add([-40, -5, -10 - gap / 2], [40, 5, -gap / 2])
+            .add([-5, -40, gap / 2], [5, 40, 10 + gap / 2])).surface()
+
+
 def make(name):
     """The shape of that name, or of `name value`."""
     kind, _, value = name.partition(' ')
@@ -283,6 +296,8 @@ def make(name):
         'cube': lambda: drawn(box(80, 80, 80), 7),
         'pocket': lambda: drawn(pocket(size), 8),
         'spheres': lambda: drawn(two_spheres(size), 9),
+        'slabs': lambda: drawn(slabs(size), 15),
+        'bars': lambda: drawn(bars(size), 16),
         'noisy': lambda: drawn(torus(50, 20), 10, genus=1, noise=size / 100),
         'contours': lambda: contours(torus(50, 20), 3.0, 0.5, 11, genus=1),
         'density': lambda: two_densities(box(100, 100, 100), 200_000, 12),
@@ -294,5 +309,6 @@ def make(name):
 
 NAMES = (['sphere', 'torus', 'trefoil', 'bowl'] + ['plate %g' % t for t in (0.3, 0.9, 2, 3, 5)] +
          ['shell %g' % t for t in (0.3, 0.9, 2, 3, 5)] + ['cube'] + ['pocket %g' % d for d in (0.5, 1, 2)] +
-         ['spheres %g' % g for g in (0, 0.3, 0.8, 2, 3)] + ['noisy %g' % n for n in (0.05, 0.1, 0.2)] +
+         ['spheres %g' % g for g in (0, 0.3, 0.8, 2, 3)] +
+         [f'{two} {gap}' for two in ('slabs', 'bars') for gap in (2, 3, 4)] + ['noisy %g' % n for n in (0.05, 0.1, 0.2)] +
          ['contours', 'density', 'density-bumps', 'fingers'])

@@ -243,9 +243,12 @@ class Run {
     return !directions.empty();
   }
 
-  /// What still is left out lies behind faces across gaps.
+  /// What still is left out lies behind faces across gaps. Without a finish nothing would come in
+  /// their place.
   void prepare_to_regrow() {
-    if (has_narrow_gaps_ || (may_regrow() && !uncovered_samples().empty())) drop_unsupported();
+    const bool is_regrown = options_.finish && may_regrow() && !uncovered_samples().empty();
+    if (has_narrow_gaps_ || is_regrown) drop_unsupported();
+    clock_.finish("unsupported");
   }
 
   /// Faces across gaps hide what lies in them, make handles, and join what is apart.
