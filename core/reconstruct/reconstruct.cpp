@@ -246,8 +246,8 @@ class Run {
   /// What still is left out lies behind faces across gaps. Without a finish nothing would come in
   /// their place.
   void prepare_to_regrow() {
-    const bool is_regrown = options_.finish && may_regrow() && !uncovered_samples().empty();
-    if (has_narrow_gaps_ || is_regrown) drop_unsupported();
+    is_regrown_ = options_.finish && may_regrow() && !uncovered_samples().empty();
+    if (has_narrow_gaps_ || is_regrown_) drop_unsupported();
     clock_.finish("unsupported");
   }
 
@@ -368,7 +368,7 @@ class Run {
       command.options.flat_tolerance = options_.decimate.value_or(0.0);
       command.options.gap = recipe_.gap;
       command.options.narrow_gaps = has_narrow_gaps_;
-      command.options.regrow = may_regrow();
+      command.options.regrow = is_regrown_;
       command.options.follow_density = follows_density();
       command.options.snap_features = recipe_.gap == 0.0;  // between contours a bend looks sharp
       apply(command, part_of(progress_, "finish", kFinishShare, kCheckShare));
@@ -402,6 +402,7 @@ class Run {
   bool is_of_cloud_ = false;      ///< what the pixels of the planned scans are
   bool is_clean_ = true;          ///< enough to scan papered holes again
   bool has_narrow_gaps_ = false;  ///< that the planned views did not reach
+  bool is_regrown_ = false;       ///< in the finish, over what no view reached
   std::vector<Vec3> samples_;     ///< points, then area samples of polygons
 };
 
