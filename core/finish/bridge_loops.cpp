@@ -18,6 +18,8 @@ namespace {
 /// In h: how far apart the sides of a crack may be, and the longer edges of a bridge.
 constexpr double kMaxGap = 3.0;
 constexpr double kMaxBridgeLength = 4.0;
+/// In h: sides of a crack so far apart have points between them.
+constexpr double kTellingGap = 1.6;
 /// Cosines: between the two faces of a bridge, and between them and the faces beside it.
 constexpr double kMinCosineInside = 0.3;
 constexpr double kMinCosineBeside = -0.3;
@@ -65,16 +67,31 @@ class Bridger {
 
   [[nodiscard]] Vec3 normal_of(const Triangle& t) const { return unit_normal(mesh_.positions, t); }
 
-  /// Whether the cloud, if there is one, has points in the middle of the face.
-  [[nodiscard]] bool is_shown(const Triangle& t) const {
-    if (cloud_.empty()) return true;
-    const auto& [a, b, c] = t;
-    const auto& p = mesh_.positions;
-    return is_supported(cloud_, (p[a] + p[b] + p[c]) / 3.0, h_, kFaceSupport);
+  /// Whether the cloud, if there is one, has points half way between two vertices.
+  [[nodiscard]] bool is_shown(std::uint32_t a, std::uint32_t b) const {
+    const Vec3 middle = 0.5 * (mesh_.positions[a] + mesh_.positions[b]);
+    return cloud_.empty() || is_supported(cloud_, middle, h_, kCloseSupport);
+  }
+
+  /// Whether there is a surface between two loops, at half of the places at least where they are so
+  /// far apart that points tell.
+  [[nodiscard]] bool is_crack(std::span<const LoopNeighbors> pairs) const {
+    std::size_t wide = 0, shown = 0;
+    for (const LoopNeighbors& pair : pairs) {
+      if (pair.distance < kTellingGap * h_) continue;
+      ++wide;
+      const auto& corners_a = loops_[pair.loop_a].corners;
+      const auto& corners_b = loops_[pair.loop_b].corners;
+      shown += is_shown(table_.head(corners_a[pair.place_a]), table_.head(corners_b[pair.place_b]))
+                   ? 1
+                   : 0;
+    }
+    return 2 * shown >= wide;
   }
 
   /// Tries the pairs of two loops, the nearest first.
   bool bridge_one(std::span<const LoopNeighbors> pairs) {
+    if (!is_crack(pairs)) return false;
     for (const LoopNeighbors& pair : pairs) {
       const auto& corners_a = loops_[pair.loop_a].corners;
       const auto& corners_b = loops_[pair.loop_b].corners;
@@ -90,7 +107,7 @@ class Bridger {
       if (glm::dot(n1, normal_of(table_.triangle(edge_a / 3))) < kMinCosineBeside) continue;
       if (glm::dot(n2, normal_of(table_.triangle(edge_b / 3))) < kMinCosineBeside) continue;
       if (glm::length(mesh_.positions[a2] - mesh_.positions[b2]) > kMaxBridgeLength * h_) continue;
-      if (!is_shown(first) || !is_shown(second)) continue;
+      if (!is_shown(a, b) || !is_shown(a2, b) || !is_shown(a2, b2)) continue;
       mesh_.triangles.push_back(first);
       mesh_.triangles.push_back(second);
       return true;

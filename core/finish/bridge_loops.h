@@ -11,8 +11,9 @@ namespace rangezip {
 /// components run beside each other within three pixels for half of the shorter one, two triangles
 /// go across at the narrowest place, so that the two loops become one crack that can be filled.
 /// Loops of one component are never joined: that would make a handle. Nor does a bridge lead
-/// through the air: the middles of its faces need a point of the cloud within 0.75 h or 1.5
-/// spacings. Positions stay.
+/// through the air: half way across it the cloud has points within 0.75 h, or one spacing; and at
+/// half of the places where the loops lie over 1.6 h apart. So two surfaces that face each other
+/// stay apart. Positions stay.
 /// @param cloud points of the cloud; may be empty: no evidence is asked for
 /// @param pixel_size h, model units; positive
 /// @pre oriented, manifold

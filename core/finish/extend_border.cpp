@@ -75,8 +75,7 @@ class Extender {
         cloud_(cloud),
         h_(options.pixel_size),
         reach_(kReach * options.pixel_size),
-        min_component_(options.min_component),
-        may_reach_(options.may_reach) {}
+        min_component_(options.min_component) {}
 
   /// @return whether anything changed
   bool round(ExtendBorderReport& report) {
@@ -87,8 +86,6 @@ class Extender {
     const FaceGrid faces(mesh_, table, reach_);
     std::vector<BorderGap> gaps =
         find_border_gaps(mesh_, table, faces, cloud_, {reach_, kNegligible * h_});
-    if (may_reach_)
-      std::erase_if(gaps, [&](const BorderGap& gap) { return !may_reach_(gap.point); });
     report.edges_left = gaps.size();
     std::stable_sort(gaps.begin(), gaps.end(),
                      [](const BorderGap& p, const BorderGap& q) { return p.beyond > q.beyond; });
@@ -258,7 +255,6 @@ class Extender {
     }
     remove_triangles(mesh_.triangles, goes);
     clean_topology(mesh_);
-    if (min_component_ == 0) return;
     const DroppedComponents dropped = drop_small_components(mesh_, min_component_);
     sum.components += dropped.components;
     sum.faces += dropped.faces;
@@ -269,7 +265,6 @@ class Extender {
   double h_;
   double reach_;
   std::size_t min_component_;
-  std::function<bool(const Vec3&)> may_reach_;
   std::size_t first_border_edges_ = 0;
   std::vector<std::uint32_t> moves_;  // of each vertex so far
   std::map<EdgeKey, Failures> failures_;

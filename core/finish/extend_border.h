@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 
 #include "core/base/progress.h"
 #include "core/finish/clean_topology.h"
@@ -12,11 +11,8 @@ namespace rangezip {
 
 struct ExtendBorderOptions {
   double pixel_size = 0.0;        ///< h, model units; positive
-  std::size_t min_component = 0;  ///< pieces with fewer faces that cutting leaves are dropped; 0:
-                                  ///< none, shreds neither
+  std::size_t min_component = 0;  ///< pieces with fewer faces that cutting leaves are dropped
   int max_rounds = 300;           ///< of one step at each border edge that needs one, at most
-  std::function<bool(const Vec3&)> may_reach;  ///< whether the border may go to a place of the
-                                               ///< cloud; absent: to all
 };
 
 struct ExtendBorderReport {

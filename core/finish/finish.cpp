@@ -249,7 +249,7 @@ FinishResult finish(TriangleMesh mesh, std::span<const Vec3> cloud, const Finish
   const double h = options.pixel_size;
   const PointGrid points(cloud, region_of(mesh, kRegionMargin * h), kPointCell * h);
   clean_topology(mesh);
-  if (options.regrow) result.report.regrown_steps = regrow(mesh, cloud, points, h, progress);
+  if (options.regrow) result.report.regrown_faces = regrow(mesh, cloud, points, h, progress);
   repair(mesh, self_intersections(mesh), points, options, result.report, progress);
   remove_thin_handles(mesh, points, options, result.report, progress);
   if (options.method == FinishMethod::full) improve(mesh, points, options, result.report, progress);

@@ -1,22 +1,38 @@
 #include "core/finish/regrow.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "core/base/parallel.h"
+#include "core/finish/advance_front.h"
 #include "core/finish/clean_topology.h"
-#include "core/finish/extend_border.h"
+#include "core/finish/components.h"
+#include "core/finish/corner_table.h"
 #include "core/finish/face_part.h"
 #include "core/finish/left_out_points.h"
+#include "core/finish/unsupported_faces.h"
+#include "core/mesh/coverage.h"
 
 namespace rangezip {
 namespace {
 
 constexpr std::size_t kMinPoints = 40;
-/// In h, around points that are left out: where borders move; and which faces they might meet.
+/// In h: how far from the mesh points are left out. A membrane in the middle of a gap of 2 h is 1 h
+/// from its walls.
+constexpr double kLeftOut = 0.7;
+/// In h, around points that are left out: faces that are doubted; points that the front may reach;
+/// and faces that it might meet.
+constexpr double kDoubted = 3.0;
 constexpr double kPlace = 4.0;
 constexpr double kPart = 8.0;
+/// In h: points farther from the mesh than this are not in it; faces as near to one as this hide
+/// the way to it, or are quickly made again.
+constexpr double kOffMesh = 0.35;
+constexpr double kInTheWay = 0.9;
+constexpr std::size_t kMinPiece = 12;  ///< faces; less is a shred in the air
 constexpr std::size_t kGrain = 256;
 
 bool is_near(const PointGrid& places, const Vec3& p, double radius) {
@@ -27,13 +43,86 @@ bool is_near(const PointGrid& places, const Vec3& p, double radius) {
   return found;
 }
 
-FacePart part_near(const TriangleMesh& mesh, const PointGrid& places, double radius) {
-  std::vector<std::uint8_t> is_in(mesh.triangles.size(), 0);
-  parallel_for(is_in.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f)
-      is_in[f] = is_near(places, mesh.positions[mesh.triangles[f][0]], radius) ? 1 : 0;
+/// Flags, in parallel.
+template <class IsIn>
+std::vector<std::uint8_t> flags_of(std::size_t count, const IsIn& is_in) {
+  std::vector<std::uint8_t> flags(count, 0);
+  parallel_for(count, kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      flags[i] = is_in(i) ? 1 : 0;
   });
-  return face_part(mesh, is_in);
+  return flags;
+}
+
+std::vector<Vec3> points_near(std::span<const Vec3> points, const PointGrid& places,
+                              double radius) {
+  const auto flags =
+      flags_of(points.size(), [&](std::size_t i) { return is_near(places, points[i], radius); });
+  std::vector<Vec3> near;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (flags[i] != 0) near.push_back(points[i]);
+  }
+  return near;
+}
+
+std::vector<Vec3> points_off(std::span<const Vec3> points, const TriangleMesh& mesh,
+                             double distance) {
+  const std::vector<std::uint8_t> is_covered = covered_points(points, mesh, distance);
+  std::vector<Vec3> off;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (is_covered[i] == 0) off.push_back(points[i]);
+  }
+  return off;
+}
+
+Box region_of(const TriangleMesh& mesh, double h) {
+  Box region = bounds_of(mesh);
+  region.lower -= Vec3(kPart * h);
+  region.upper += Vec3(kPart * h);
+  return region;
+}
+
+/// The centroid, the middles of the sides, and the corners.
+std::array<Vec3, 7> places_on(const TriangleMesh& mesh, const Triangle& face) {
+  const Vec3 &a = mesh.positions[face[0]], &b = mesh.positions[face[1]],
+             &c = mesh.positions[face[2]];
+  return {(a + b + c) / 3.0, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a), a, b, c};
+}
+
+void drop_shreds(TriangleMesh& mesh) {
+  const CornerTable table(mesh.triangles, mesh.positions.size());
+  const std::vector<std::uint32_t> component = components_of(table);
+  std::vector<std::size_t> faces(component.size(), 0);
+  for (const std::uint32_t c : component)
+    ++faces[c];
+  std::vector<std::uint8_t> goes(component.size(), 0);
+  for (std::size_t f = 0; f < component.size(); ++f)
+    goes[f] = faces[component[f]] < kMinPiece ? 1 : 0;
+  remove_triangles(mesh.triangles, goes);
+}
+
+/// Drops faces that lead through the air, and those that hide the way to points.
+/// @param points near those that are left out
+void clear_way(TriangleMesh& mesh, std::span<const Vec3> points, const PointGrid& left_out,
+               const PointGrid& cloud, double h) {
+  const std::vector<Vec3> off = points_off(points, mesh, kOffMesh * h);
+  const PointGrid off_mesh(off, region_of(mesh, h), 0.5 * kInTheWay * h);
+  remove_triangles(mesh.triangles, flags_of(mesh.triangles.size(), [&](std::size_t f) {
+                     const std::array<Vec3, 7> places = places_on(mesh, mesh.triangles[f]);
+                     return is_near(left_out, places[0], kDoubted * h) &&
+                            std::any_of(places.begin(), places.end(), [&](const Vec3& place) {
+                              return is_near(off_mesh, place, kInTheWay * h) ||
+                                     !is_supported(cloud, place, h, kCloseSupport);
+                            });
+                   }));
+  clean_topology(mesh);
+  drop_shreds(mesh);
+}
+
+FacePart part_near(const TriangleMesh& mesh, const PointGrid& places, double radius) {
+  return face_part(mesh, flags_of(mesh.triangles.size(), [&](std::size_t f) {
+                     return is_near(places, mesh.positions[mesh.triangles[f][0]], radius);
+                   }));
 }
 
 }  // namespace
@@ -42,21 +131,19 @@ std::size_t regrow(TriangleMesh& mesh, std::span<const Vec3> points, const Point
                    double pixel_size, const Progress& progress) {
   const double h = pixel_size;
   if (mesh.empty()) return 0;
-  const std::vector<Vec3> left_out = left_out_points(points, mesh, h);
+  const std::vector<Vec3> left_out = left_out_points(points, mesh, kLeftOut * h);
   if (left_out.size() < kMinPoints) return 0;
-  Box region = bounds_of(mesh);
-  region.lower -= Vec3(kPart * h);
-  region.upper += Vec3(kPart * h);
-  const PointGrid places(left_out, region, 0.5 * kPlace * h);
+  const PointGrid places(left_out, region_of(mesh, h), 0.5 * kPlace * h);
+  const std::vector<Vec3> near = points_near(points, places, kPlace * h);
+  clear_way(mesh, near, places, grid, h);
   FacePart part = part_near(mesh, places, kPart * h);
   if (part.mesh.empty()) return 0;  // they are of another body, inside of this one
-  const ExtendBorderOptions options{
-      .pixel_size = h, .may_reach = [&](const Vec3& p) { return is_near(places, p, kPlace * h); }};
-  const ExtendBorderReport extended = extend_border(part.mesh, grid, options, progress);
+  const std::size_t count =
+      advance_front(part.mesh, points_off(near, part.mesh, kOffMesh * h), h, progress);
   put_back(std::move(part), mesh);
   clean_topology(mesh);
   remove_unused_vertices(mesh);
-  return extended.steps;
+  return count;
 }
 
 }  // namespace rangezip

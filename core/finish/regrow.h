@@ -9,18 +9,21 @@
 
 namespace rangezip {
 
-/// Grows a surface over places that no scan has reached: deep in slots, and the walls of holes
-/// between what views see of them. Where points are left out (core/finish/left_out_points.h, by
-/// more than h), borders go out over the cloud (core/finish/extend_border.h) in steps of at most h,
-/// up to 4 h from such points. So the way there leads over the surface, not through the air, and
-/// what is left of holes can be closed. Only faces within 8 h of the points are looked at. Fewer
-/// than 40 such points are a few pixels: then nothing is done.
+/// Grows a surface over places that no scan has reached: deep in slots and cavities, and where two
+/// surfaces are as near to each other as 2 h. Where points are left out
+/// (core/finish/left_out_points.h, by more than 0.7 h; 40 at least), what hides the way to them
+/// goes first: within 3 h of them faces in the air, whose centroid, corners or middles of sides
+/// have no point within 0.75 h or one spacing, faces within 0.9 h of a point that the mesh does not
+/// show, and pieces of less than a dozen faces that are left. Then an advancing front
+/// (core/finish/advance_front.h) goes over the points up to 4 h from those left out, and joins what
+/// it meets. So the way there leads over the surface, not through the air, and of holes only those
+/// without points are left.
 ///
-/// Noise would feather the borders; the cloud should be clean.
+/// Noise would bend the front; the cloud should be clean.
 /// @param points the cloud
 /// @param grid of the same points
 /// @param pixel_size h, model units; positive
-/// @return steps taken
+/// @return faces that came
 /// @pre oriented, manifold; stays so. Faces that come cross none.
 std::size_t regrow(TriangleMesh& mesh, std::span<const Vec3> points, const PointGrid& grid,
                    double pixel_size, const Progress& progress = {});

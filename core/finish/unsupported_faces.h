@@ -19,6 +19,11 @@ struct SupportReach {
 /// air. Of points thrown at random over a surface one in a thousand places has none as near.
 inline constexpr SupportReach kFaceSupport{.pixels = 0.75, .spacings = 1.5};
 
+/// The same where two surfaces 2 h apart must be told, of which h is as little as 1.3 spacings. One
+/// in twenty places of a surface has no point as near, so only what can be made again may depend on
+/// a single one.
+inline constexpr SupportReach kCloseSupport{.pixels = 0.75, .spacings = 1.0};
+
 /// Whether the cloud shows the surface at a place.
 /// @param pixel_size h, model units
 [[nodiscard]] bool is_supported(const PointGrid& cloud, const Vec3& place, double pixel_size,

@@ -248,6 +248,28 @@ TEST_CASE("two bodies side by side are not bridged where the cloud shows air bet
   CHECK(bridge_loops(mesh, PointGrid(points, region, 0.7), 1.0) == 0);
 }
 
+TEST_CASE("two walls that face each other two pixels apart are not bridged", "[finish]") {
+  // Each has a hole, opposite to the other; points are sparse, and half the gap is 1.35 spacings.
+  constexpr double kGap = 2.0, kSpacing = 0.75;
+  const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
+  CAPTURE(seed);
+  std::mt19937_64 engine(seed);
+  TriangleMesh mesh = shapes::square_sheet(24);
+  testing::cut_where(mesh, [](const Vec3& p) { return std::hypot(p.x, p.y) < 6.0; });
+  const auto count = static_cast<std::uint32_t>(mesh.positions.size());
+  const std::vector<Triangle> faces = mesh.triangles;
+  for (std::uint32_t v = 0; v < count; ++v)
+    mesh.positions.push_back(mesh.positions[v] + Vec3(0.0, 0.0, kGap));
+  for (const auto& [a, b, c] : faces)
+    mesh.triangles.push_back({count + a, count + c, count + b});
+  std::vector<Vec3> points;
+  for (double i = 0.0; i < 2.0 * 24.0 * 24.0 / (kSpacing * kSpacing); i += 1.0) {
+    points.emplace_back(testing::uniform(engine, -12.0, 12.0),
+                        testing::uniform(engine, -12.0, 12.0), engine() % 2 == 0 ? 0.0 : kGap);
+  }
+  CHECK(bridge_loops(mesh, PointGrid(points, Box{Vec3(-14.0), Vec3(14.0)}, 0.7), 1.0) == 0);
+}
+
 TEST_CASE("loops of one component are never joined to a handle") {
   // A thin slab with a hole in each face, opposite to each other and one pixel apart.
   constexpr int kN = 32;

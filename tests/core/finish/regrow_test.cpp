@@ -83,6 +83,52 @@ TEST_CASE("regrow covers what scans left out of two sheets two pixels apart, and
   }));
 }
 
+TEST_CASE("regrow takes a membrane out of the middle of a gap, with what joins it to the walls",
+          "[finish]") {
+  const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
+  CAPTURE(seed);
+  std::mt19937_64 engine(seed);
+  constexpr double kGap = 2.0, kHole = 0.35 * kSide;
+  std::vector<Vec3> points;
+  add_sheet_points(points, 0.0, engine);
+  add_sheet_points(points, kGap, engine);
+  // Between the two the membrane, and from the rim of the lower hole to it a strip of faces.
+  TriangleMesh mesh = frame(0.0, kHole, false);
+  append(mesh, frame(kGap, kHole, true));
+  TriangleMesh membrane = shapes::square_sheet(kSide);
+  testing::cut_where(membrane,
+                     [&](const Vec3& p) { return std::max(std::abs(p.x), std::abs(p.y)) > kHole; });
+  for (Vec3& p : membrane.positions)
+    p.z = 0.5 * kGap;
+  append(mesh, membrane);
+  const double rim = std::ceil(kHole);
+  const auto vertex_at = [&](const Vec3& place) {
+    const auto& p = mesh.positions;
+    return static_cast<std::uint32_t>(
+        std::find_if(p.begin(), p.end(),
+                     [&](const Vec3& q) { return glm::length(q - place) < 1e-9; }) -
+        p.begin());
+  };
+  for (double x = -3.0; x < 3.0; x += 1.0) {
+    const std::uint32_t a = vertex_at(Vec3(x, rim, 0.0)), b = vertex_at(Vec3(x + 1.0, rim, 0.0));
+    const std::uint32_t c = vertex_at(Vec3(x, rim - 1.0, 0.5 * kGap)),
+                        d = vertex_at(Vec3(x + 1.0, rim - 1.0, 0.5 * kGap));
+    REQUIRE(std::max({a, b, c, d}) < mesh.positions.size());
+    mesh.triangles.push_back({a, c, d});
+    mesh.triangles.push_back({a, d, b});
+  }
+  REQUIRE(report_mesh(mesh).is_manifold());
+  REQUIRE(report_mesh(mesh).components == 2);
+
+  REQUIRE(regrow(mesh, points, grid_of(points), kH) > 0);
+
+  require_clean(mesh);
+  CHECK(report_mesh(mesh).components == 2);
+  CHECK(std::none_of(mesh.positions.begin(), mesh.positions.end(),
+                     [&](const Vec3& p) { return std::abs(p.z - 0.5 * kGap) < 0.4; }));
+  CHECK(left_out_points(points, mesh, 0.5 * kH).empty());
+}
+
 TEST_CASE("regrow leaves a hole that holds no points, and what lies far from points left out",
           "[finish]") {
   const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
@@ -90,7 +136,7 @@ TEST_CASE("regrow leaves a hole that holds no points, and what lies far from poi
   std::mt19937_64 engine(seed);
   std::vector<Vec3> points;
   add_sheet_points(points, 0.0, engine);
-  std::erase_if(points, [](const Vec3& p) { return std::hypot(p.x, p.y) < 6.0; });
+  std::erase_if(points, [](const Vec3& p) { return std::max(std::abs(p.x), std::abs(p.y)) < 6.0; });
   TriangleMesh mesh = frame(0.0, 6.0, false);
   const TriangleMesh before = mesh;
   REQUIRE(regrow(mesh, points, grid_of(points), kH) == 0);

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "core/base/progress.h"
+#include "core/mesh/triangle_mesh.h"
+
+namespace rangezip {
+
+/// Grows the border of a mesh over points by an advancing front [Bernardini et al. 1999;
+/// Cohen-Steiner, Da 2004]. Each border edge looks for the point, or the vertex of the border, that
+/// makes the best face with it: the one with the smallest circle on the far side of the edge, as in
+/// a Delaunay triangulation, and that bends least. Of the faces of all edges the smallest and
+/// flattest comes first. So fronts that meet are joined, and what is left open has no points.
+///
+/// No circle has a radius over 0.9 h, so no face leads over a gap of 2 h; with a bend of over 45
+/// degrees it has 0.7 h at most. Sharper bends than 95 degrees are not made, nor faces that look
+/// away from those around a vertex that they join. Of points nearer to each other than 0.6 h one is
+/// taken. Faces that cross anything are taken back.
+///
+/// The mesh stays oriented, and its faces stay; the new ones come last. A vertex where fronts have
+/// met may be left with several fans (core/finish/clean_topology.h), and points that were not
+/// needed are vertices without faces. Cost: a sort of points and border vertices, and for each edge
+/// those within 4 h.
+/// @param points that the mesh leaves out; border vertices within 2 h of them are joined
+/// @param pixel_size h, model units; positive
+/// @return faces that came
+/// @pre oriented, manifold
+std::size_t advance_front(TriangleMesh& mesh, std::span<const Vec3> points, double pixel_size,
+                          const Progress& progress = {});
+
+}  // namespace rangezip
