@@ -29,7 +29,7 @@ struct FinishOptions {
                      ///< is fitted to several of them; 0: the points are spread evenly
   bool narrow_gaps = false;  ///< the cloud has gaps that scans reach only in part: no surface is
                              ///< given up to close a hole, and handles are cut where no points lie
-  bool regrow = false;  ///< grows over places that no scan has reached, for clouds without noise
+  bool regrow = false;       ///< grows over places that no scan has reached
   bool follow_density = false;      ///< `full` makes smaller triangles where the cloud is so dense
                                     ///< that scans might have had pixels of under 0.6 h there
   std::size_t min_component = 100;  ///< smaller pieces are dropped

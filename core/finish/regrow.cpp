@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/base/parallel.h"
+#include "core/base/spread.h"
+#include "core/base/symmetric_eigen.h"
 #include "core/finish/advance_front.h"
 #include "core/finish/clean_topology.h"
 #include "core/finish/components.h"
@@ -23,6 +27,8 @@ constexpr std::size_t kMinPoints = 40;
 /// In h: how far from the mesh points are left out. A membrane in the middle of a gap of 2 h is 1 h
 /// from its walls.
 constexpr double kLeftOut = 0.7;
+constexpr double kLeftOutPerNoise = 3.0;
+constexpr double kMostNoise = 0.3;  ///< in h: more would bend the front
 /// In h, around points that are left out: faces that are doubted; points that the front may reach;
 /// and faces that it might meet.
 constexpr double kDoubted = 3.0;
@@ -30,8 +36,12 @@ constexpr double kPlace = 4.0;
 constexpr double kPart = 8.0;
 /// In h: points farther from the mesh than this are not in it; faces as near to one as this hide
 /// the way to it, or are quickly made again.
-constexpr double kOffMesh = 0.35;
+constexpr double kOffMesh = 0.42;
+constexpr double kOffMeshPerNoise = 2.0;
 constexpr double kInTheWay = 0.9;
+constexpr double kSmooth = 1.3;        ///< in h: around a point, in which the others tell its plane
+constexpr double kHardlyNoise = 0.08;  ///< in h: less is left in
+constexpr std::size_t kNoiseSamples = 1000;
 constexpr std::size_t kMinPiece = 12;  ///< faces; less is a shred in the air
 constexpr std::size_t kGrain = 256;
 
@@ -102,10 +112,9 @@ void drop_shreds(TriangleMesh& mesh) {
 }
 
 /// Drops faces that lead through the air, and those that hide the way to points.
-/// @param points near those that are left out
-void clear_way(TriangleMesh& mesh, std::span<const Vec3> points, const PointGrid& left_out,
+/// @param off points near those that the mesh does not show
+void clear_way(TriangleMesh& mesh, std::span<const Vec3> off, const PointGrid& left_out,
                const PointGrid& cloud, double h) {
-  const std::vector<Vec3> off = points_off(points, mesh, kOffMesh * h);
   const PointGrid off_mesh(off, region_of(mesh, h), 0.5 * kInTheWay * h);
   remove_triangles(mesh.triangles, flags_of(mesh.triangles.size(), [&](std::size_t f) {
                      const std::array<Vec3, 7> places = places_on(mesh, mesh.triangles[f]);
@@ -117,6 +126,52 @@ void clear_way(TriangleMesh& mesh, std::span<const Vec3> points, const PointGrid
                    }));
   clean_topology(mesh);
   drop_shreds(mesh);
+}
+
+struct LocalPlane {
+  Vec3 foot{0.0};          ///< of the place
+  double thickness = 0.0;  ///< RMS distance of the points from the plane
+};
+
+std::optional<LocalPlane> plane_at(const Vec3& place, const PointGrid& cloud, double radius) {
+  constexpr double kFewest = 6.0;
+  Vec3 sum(0.0);
+  Mat3 moments(0.0);
+  double count = 0.0;
+  cloud.for_each_near(place, radius, [&](const Vec3& offset) {
+    if (glm::dot(offset, offset) > radius * radius) return;
+    sum += offset;
+    moments += glm::outerProduct(offset, offset);
+    count += 1.0;
+  });
+  if (count < kFewest) return std::nullopt;
+  const Vec3 mean = sum / count;
+  const SymmetricEigen eigen = eigen_of_symmetric(moments - glm::outerProduct(mean, sum));
+  const Vec3 normal = eigen.vectors[0];
+  return LocalPlane{place + glm::dot(mean, normal) * normal,
+                    std::sqrt(std::max(0.0, eigen.values[0]) / count)};
+}
+
+/// Of the points in places: a quarter of them tell, since at creases clean points lie on no plane.
+double noise_of(std::span<const Vec3> points, const PointGrid& cloud, double h) {
+  std::vector<double> thickness;
+  for (const std::size_t i : spread_indices(points.size(), kNoiseSamples)) {
+    if (const auto plane = plane_at(points[i], cloud, kSmooth * h))
+      thickness.push_back(plane->thickness);
+  }
+  if (thickness.empty()) return 0.0;
+  const auto quarter = thickness.begin() + static_cast<std::ptrdiff_t>(thickness.size() / 4);
+  std::nth_element(thickness.begin(), quarter, thickness.end());
+  return *quarter;
+}
+
+/// Moves each onto the plane through the points around it.
+void smooth(std::vector<Vec3>& points, const PointGrid& cloud, double h) {
+  parallel_for(points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (const auto plane = plane_at(points[i], cloud, kSmooth * h)) points[i] = plane->foot;
+    }
+  });
 }
 
 FacePart part_near(const TriangleMesh& mesh, const PointGrid& places, double radius) {
@@ -131,15 +186,20 @@ std::size_t regrow(TriangleMesh& mesh, std::span<const Vec3> points, const Point
                    double pixel_size, const Progress& progress) {
   const double h = pixel_size;
   if (mesh.empty()) return 0;
-  const std::vector<Vec3> left_out = left_out_points(points, mesh, kLeftOut * h);
+  const double noise = noise_of(points, grid, h);
+  if (noise > kMostNoise * h) return 0;
+  const std::vector<Vec3> left_out =
+      left_out_points(points, mesh, std::max(kLeftOut * h, kLeftOutPerNoise * noise));
   if (left_out.size() < kMinPoints) return 0;
   const PointGrid places(left_out, region_of(mesh, h), 0.5 * kPlace * h);
   const std::vector<Vec3> near = points_near(points, places, kPlace * h);
-  clear_way(mesh, near, places, grid, h);
+  const double off_mesh = std::max(kOffMesh * h, kOffMeshPerNoise * noise);
+  clear_way(mesh, points_off(near, mesh, off_mesh), places, grid, h);
   FacePart part = part_near(mesh, places, kPart * h);
   if (part.mesh.empty()) return 0;  // they are of another body, inside of this one
-  const std::size_t count =
-      advance_front(part.mesh, points_off(near, part.mesh, kOffMesh * h), h, progress);
+  std::vector<Vec3> missing = points_off(near, part.mesh, off_mesh);
+  if (noise > kHardlyNoise * h) smooth(missing, grid, h);
+  const std::size_t count = advance_front(part.mesh, missing, h, progress);
   put_back(std::move(part), mesh);
   clean_topology(mesh);
   remove_unused_vertices(mesh);

@@ -11,19 +11,20 @@ namespace rangezip {
 
 /// Grows a surface over places that no scan has reached: deep in slots and cavities, and where two
 /// surfaces are as near to each other as 2 h. Where points are left out
-/// (core/finish/left_out_points.h, by more than 0.7 h; 40 at least), what hides the way to them
-/// goes first: within 3 h of them faces in the air, whose centroid, corners or middles of sides
-/// have no point within 0.75 h or one spacing, faces within 0.9 h of a point that the mesh does not
-/// show, and pieces of less than a dozen faces that are left. Then an advancing front
-/// (core/finish/advance_front.h) goes over the points up to 4 h from those left out, and joins what
-/// it meets. So the way there leads over the surface, not through the air, and of holes only those
-/// without points are left.
+/// (core/finish/left_out_points.h, by more than 0.7 h, or three times the noise; 40 at least), what
+/// hides the way to them goes first: within 3 h of them faces in the air, whose centroid, corners
+/// or middles of sides have no point within 0.75 h or one spacing, faces within 0.9 h of a point
+/// that the mesh does not show (off it by 0.42 h, or twice the noise), and pieces of less than a
+/// dozen faces that are left. Then an advancing front (core/finish/advance_front.h) goes over the
+/// points up to 4 h from those left out, and joins what it meets. So the way there leads over the
+/// surface, not through the air, and of holes only those without points are left.
 ///
-/// Noise would bend the front; the cloud should be clean.
+/// Points with noise of over 0.08 h are first moved onto the plane through those within 1.3 h; with
+/// over 0.3 h nothing is done, since what is left out is noise, too.
 /// @param points the cloud
 /// @param grid of the same points
 /// @param pixel_size h, model units; positive
-/// @return faces that came
+/// @return faces that came; 0 if nothing was to be done
 /// @pre oriented, manifold; stays so. Faces that come cross none.
 std::size_t regrow(TriangleMesh& mesh, std::span<const Vec3> points, const PointGrid& grid,
                    double pixel_size, const Progress& progress = {});

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/spread.h"
 #include "core/plan/directions.h"
 #include "core/plan/front_sheet.h"
 #include "core/plan/spacing.h"
-#include "core/plan/spread.h"
 
 namespace rangezip {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <variant>
 
+#include "core/base/spread.h"
 #include "core/plan/spacing.h"
-#include "core/plan/spread.h"
 
 namespace rangezip {
 

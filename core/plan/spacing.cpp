@@ -9,8 +9,8 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "core/base/spread.h"
 #include "core/base/symmetric_eigen.h"
-#include "core/plan/spread.h"
 
 namespace rangezip {
 

@@ -10,10 +10,10 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/base/spread.h"
 #include "core/plan/directions.h"
 #include "core/plan/front_sheet.h"
 #include "core/plan/spacing.h"
-#include "core/plan/spread.h"
 
 namespace rangezip {
 

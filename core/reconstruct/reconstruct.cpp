@@ -9,11 +9,11 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/base/spread.h"
 #include "core/finish/left_out_points.h"
 #include "core/mesh/self_intersection.h"
 #include "core/plan/open_sheet.h"
 #include "core/plan/spacing.h"
-#include "core/plan/spread.h"
 #include "core/plan/view_planner.h"
 #include "core/reconstruct/dense_places.h"
 #include "core/reconstruct/papered_holes.h"
@@ -128,7 +128,7 @@ class Run {
     scan_fill_views();
     rescan_dense_places();
     rescan_papered_holes();
-    prepare_to_regrow();
+    drop_unsupported_in_gaps();
     finish_mesh();
     check_result();
     return std::move(result_);
@@ -243,11 +243,8 @@ class Run {
     return !directions.empty();
   }
 
-  /// What still is left out lies behind faces across gaps. Without a finish nothing would come in
-  /// their place.
-  void prepare_to_regrow() {
-    is_regrown_ = options_.finish && may_regrow() && !uncovered_samples().empty();
-    if (has_narrow_gaps_ || is_regrown_) drop_unsupported();
+  void drop_unsupported_in_gaps() {
+    if (has_narrow_gaps_) drop_unsupported();
     clock_.finish("unsupported");
   }
 
@@ -270,10 +267,6 @@ class Run {
   [[nodiscard]] bool is_plain_cloud() const {
     return scene_.triangle_count() == 0 && recipe_.gap == 0.0;
   }
-
-  /// Whether the cloud tells so well where the surface is, that the mesh can follow it where no
-  /// scan does.
-  [[nodiscard]] bool may_regrow() const { return is_plain_cloud() && is_clean_; }
 
   [[nodiscard]] bool may_add_views() const {
     return !options_.views && options_.method == ReconstructMethod::automatic;
@@ -307,7 +300,7 @@ class Run {
   /// Where scans have papered over holes, the mesh goes, and the places are scanned again with
   /// finer pixels. Last, since scans with the usual pixels would close the holes again.
   void rescan_papered_holes() {
-    if (!may_add_views() || !may_regrow()) return;
+    if (!may_add_views() || !is_plain_cloud() || !is_clean_) return;
     const double h = recipe_.pixel_size;
     const PaperedHoles holes = find_papered_holes(samples_, *session_.mesh(), h);
     if (holes.places.empty()) return;
@@ -368,7 +361,7 @@ class Run {
       command.options.flat_tolerance = options_.decimate.value_or(0.0);
       command.options.gap = recipe_.gap;
       command.options.narrow_gaps = has_narrow_gaps_;
-      command.options.regrow = is_regrown_;
+      command.options.regrow = is_plain_cloud();
       command.options.follow_density = follows_density();
       command.options.snap_features = recipe_.gap == 0.0;  // between contours a bend looks sharp
       apply(command, part_of(progress_, "finish", kFinishShare, kCheckShare));
@@ -402,7 +395,6 @@ class Run {
   bool is_of_cloud_ = false;      ///< what the pixels of the planned scans are
   bool is_clean_ = true;          ///< enough to scan papered holes again
   bool has_narrow_gaps_ = false;  ///< that the planned views did not reach
-  bool is_regrown_ = false;       ///< in the finish, over what no view reached
   std::vector<Vec3> samples_;     ///< points, then area samples of polygons
 };
 

@@ -83,6 +83,29 @@ TEST_CASE("regrow covers what scans left out of two sheets two pixels apart, and
   }));
 }
 
+TEST_CASE("regrow over noise of a fifth of a pixel makes faces that are flatter than the noise",
+          "[finish]") {
+  constexpr double kNoise = 0.2 * kH;
+  const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
+  CAPTURE(seed);
+  std::mt19937_64 engine(seed);
+  std::vector<Vec3> points;
+  add_sheet_points(points, 0.0, engine);
+  for (Vec3& p : points) {  // of a variance of kNoise^2
+    for (int i = 0; i < 12; ++i)
+      p.z += kNoise * uniform(engine, -0.5, 0.5);
+  }
+  constexpr double kHole = 0.35 * kSide;
+  TriangleMesh mesh = frame(0.0, kHole, false);
+  const std::size_t before = mesh.positions.size();
+  REQUIRE(regrow(mesh, points, grid_of(points), kH) > 100);
+  require_clean(mesh);
+  double squares = 0.0;
+  for (std::size_t v = before; v < mesh.positions.size(); ++v)
+    squares += mesh.positions[v].z * mesh.positions[v].z;
+  CHECK(squares < 0.35 * kNoise * kNoise * static_cast<double>(mesh.positions.size() - before));
+}
+
 TEST_CASE("regrow takes a membrane out of the middle of a gap, with what joins it to the walls",
           "[finish]") {
   const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/base/error.h"
-#include "core/plan/spread.h"
+#include "core/base/spread.h"
 #include "tests/support/shapes.h"
 
 namespace rangezip {

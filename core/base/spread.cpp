@@ -1,4 +1,4 @@
-#include "core/plan/spread.h"
+#include "core/base/spread.h"
 
 namespace rangezip {
 
