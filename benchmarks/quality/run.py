@@ -177,6 +177,8 @@ CASES = [
     made('spheres 0'), made('spheres 0.3'), made('spheres 0.8'),
     *(made(f'{two} {gap}', CLOSED, [Bound('components', '==', 2), Bound('euler', '==', 4)])
       for two, gaps in (('spheres', (2, 3)), ('slabs', (2, 3, 4)), ('bars', (2, 3, 4))) for gap in gaps),
+    *(body(f'{deep} {width}', 9 if deep == 'drilled' else 0, [Bound('cloud_within_05', '>=', 0.998)])
+      for deep in ('slot', 'cavity', 'drilled') for width in (2, 3, 6)),
     body('noisy 0.05', 1, RIGHT_SIDE_OUT), body('noisy 0.1', 1, RIGHT_SIDE_OUT), body('noisy 0.2', 1, RIGHT_SIDE_OUT),
     body('contours', 1),
     body('density', 0, [Bound('accuracy_rms', '<=', 0.0001, True)]),

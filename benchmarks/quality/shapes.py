@@ -282,6 +282,30 @@ def bars(gap):
             .add([-5, -40, gap / 2], [5, 40, 10 + gap / 2])).surface()
 
 
+def slot(width, depth=30.0):
+    """A block with a slot through its whole length."""
+    return (Blocks().add([-36, -36, -60], [36, 36, 0]).cut([-width / 2, -36, -depth], [width / 2, 36, 0])).surface()
+
+
+def cavity(neck, side=30.0, depth=30.0, lip=6.0):
+    """A block with a cavity behind a square mouth."""
+    return (Blocks().add([-36, -36, -60], [36, 36, 0])
+            .cut([-side / 2, -side / 2, -lip - depth], [side / 2, side / 2, -lip])
+            .cut([-neck / 2, -neck / 2, -lip], [neck / 2, neck / 2, 0])).surface()
+
+
+DRILLED = 9
+
+
+def drilled(width, thickness=8.0):
+    """A plate with square holes that lead through."""
+    plate = Blocks().add([-60, -60, 0], [60, 60, thickness])
+    for x in (-36, 0, 36):
+        for y in (-36, 0, 36):
+            plate.cut([x - width / 2, y - width / 2, 0], [x + width / 2, y + width / 2, thickness])
+    return plate.surface()
+
+
 def make(name):
     """The shape of that name, or of `name value`."""
     kind, _, value = name.partition(' ')
@@ -298,6 +322,9 @@ def make(name):
         'spheres': lambda: drawn(two_spheres(size), 9),
         'slabs': lambda: drawn(slabs(size), 15),
         'bars': lambda: drawn(bars(size), 16),
+        'slot': lambda: drawn(slot(size), 17),
+        'cavity': lambda: drawn(cavity(size), 18),
+        'drilled': lambda: drawn(drilled(size), 19, genus=DRILLED),
         'noisy': lambda: drawn(torus(50, 20), 10, genus=1, noise=size / 100),
         'contours': lambda: contours(torus(50, 20), 3.0, 0.5, 11, genus=1),
         'density': lambda: two_densities(box(100, 100, 100), 200_000, 12),
@@ -310,5 +337,6 @@ def make(name):
 NAMES = (['sphere', 'torus', 'trefoil', 'bowl'] + ['plate %g' % t for t in (0.3, 0.9, 2, 3, 5)] +
          ['shell %g' % t for t in (0.3, 0.9, 2, 3, 5)] + ['cube'] + ['pocket %g' % d for d in (0.5, 1, 2)] +
          ['spheres %g' % g for g in (0, 0.3, 0.8, 2, 3)] +
-         [f'{two} {gap}' for two in ('slabs', 'bars') for gap in (2, 3, 4)] + ['noisy %g' % n for n in (0.05, 0.1, 0.2)] +
+         [f'{two} {gap}' for two in ('slabs', 'bars') for gap in (2, 3, 4)] +
+         [f'{deep} {width}' for deep in ('slot', 'cavity', 'drilled') for width in (2, 3, 6)] + ['noisy %g' % n for n in (0.05, 0.1, 0.2)] +
          ['contours', 'density', 'density-bumps', 'fingers'])

@@ -27,8 +27,8 @@ struct FinishOptions {
   bool snap_features = true;    ///< sharp edges and corners
   double gap = 0.0;  ///< between the contours that the cloud is made of, model units: the surface
                      ///< is fitted to several of them; 0: the points are spread evenly
-  bool narrow_gaps = false;  ///< the cloud has gaps that scans reach only in part: no surface is
-                             ///< given up to close a hole, and handles are cut where no points lie
+  bool narrow_gaps = false;  ///< the cloud has gaps that scans reach only in part: handles are cut
+                             ///< where no points lie
   bool regrow = false;       ///< grows over places that no scan has reached
   bool follow_density = false;      ///< `full` makes smaller triangles where the cloud is so dense
                                     ///< that scans might have had pixels of under 0.6 h there
@@ -43,10 +43,9 @@ struct FinishReport {
   std::size_t cut_handles = 0;   ///< thinner than what scans resolve
   std::size_t filled_holes = 0;
   std::size_t filled_faces = 0;
-  std::size_t faces_put_back = 0;  ///< around holes that could not be closed
-  std::size_t open_loops = 0;      ///< boundary loops left
-  double noise = 0.0;       ///< standard deviation of the cloud from the surface, model units
-  double fit_radius = 0.0;  ///< of the points that were taken together for a place, model units
+  std::size_t open_loops = 0;  ///< boundary loops left
+  double noise = 0.0;          ///< standard deviation of the cloud from the surface, model units
+  double fit_radius = 0.0;     ///< of the points that were taken together for a place, model units
   std::size_t split_edges = 0;
   std::size_t collapsed_edges = 0;
   std::size_t flipped_edges = 0;

@@ -15,18 +15,11 @@
 #include "core/finish/corner_table.h"
 #include "core/finish/hole_choice.h"
 #include "core/finish/join_loops.h"
-#include "core/finish/removed_faces.h"
 #include "core/finish/verified_fills.h"
 #include "core/mesh/self_intersection.h"
 
 namespace rangezip {
 namespace {
-
-/// In h: a place is one of the surface if the cloud has a point as near as this.
-constexpr double kSupport = 0.75;
-
-/// Holes that were left once stay as a rule: then these are enough for what is new.
-constexpr int kRoundsAgain = 3;
 
 /// Rounds in which loops that are to be joined, but are hindered, are kept open for the next one.
 constexpr int kRoundsToJoin = 3;
@@ -73,46 +66,6 @@ struct FillOutcome {
   std::vector<std::uint8_t> unfilled;  ///< flags of vertices of loops that could not be filled
 };
 
-bool has_point_near(const PointGrid& cloud, const Vec3& place, double radius) {
-  bool found = false;
-  cloud.for_each_near(place, radius, [&](const Vec3& offset) {
-    found = found || glm::dot(offset, offset) < radius * radius;
-  });
-  return found;
-}
-
-/// The triangles of a fill as a mesh of their own.
-TriangleMesh mesh_of_fill(const TriangleMesh& mesh, const HoleFill& fill) {
-  std::vector<std::uint32_t> used;
-  for (const Triangle& t : fill.triangles)
-    used.insert(used.end(), t.begin(), t.end());
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
-  TriangleMesh own;
-  for (const std::uint32_t v : used)
-    own.positions.push_back(v < mesh.positions.size()
-                                ? mesh.positions[v]
-                                : fill.new_positions[v - mesh.positions.size()]);
-  own.triangles = fill.triangles;
-  for (Triangle& t : own.triangles) {
-    for (std::uint32_t& v : t)
-      v = static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), v) - used.begin());
-  }
-  return own;
-}
-
-/// Whether a fill stands for the places of removed faces that it closes over, as far as the cloud
-/// shows that they are places of the surface.
-bool stands_for_removed(const TriangleMesh& mesh, const std::vector<Triangle>& removed,
-                        const HoleFill& fill, const PointGrid& cloud, double h) {
-  std::vector<Vec3> places;
-  for (const Triangle& t : removed) {
-    const Vec3 place = (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3.0;
-    if (cloud.empty() || has_point_near(cloud, place, kSupport * h)) places.push_back(place);
-  }
-  return places.empty() || stands_for(mesh_of_fill(mesh, fill), places, h);
-}
-
 /// Parts the loops that hindered vertices are in from the others.
 /// @param is_hindered of vertices; empty: none
 std::vector<BoundaryLoop> hindered_among(std::vector<BoundaryLoop>& loops, const CornerTable& table,
@@ -129,8 +82,7 @@ std::vector<BoundaryLoop> hindered_among(std::vector<BoundaryLoop>& loops, const
 
 /// @param is_hindered of vertices: their loops are not filled in this round; empty: none
 FillOutcome fill(TriangleMesh& mesh, bool is_zipped, const std::vector<std::uint8_t>& is_hindered,
-                 const RemovedFaces* removed, const PointGrid& cloud, const FinishOptions& options,
-                 FinishReport& report) {
+                 const PointGrid& cloud, const FinishOptions& options, FinishReport& report) {
   const CornerTable table(mesh.triangles, mesh.positions.size());
   std::vector<BoundaryLoop> loops = boundary_loops(table);
   const std::vector<BoundaryLoop> hindered = hindered_among(loops, table, is_hindered);
@@ -147,13 +99,8 @@ FillOutcome fill(TriangleMesh& mesh, bool is_zipped, const std::vector<std::uint
     if (shapes[i]) requests.push_back({std::move(loops[i]), *shapes[i]});
   }
   const double h = options.pixel_size;
-  VerifiedFillOptions fill_options{h, options.narrow_width * h, options.max_hole_perimeter * h, {}};
-  const TriangleMesh before = removed != nullptr ? mesh : TriangleMesh{};
-  if (removed != nullptr) {
-    fill_options.may_stay = [&](const BoundaryLoop& loop, const HoleFill& made) {
-      return stands_for_removed(before, removed->behind(table, loop), made, cloud, h);
-    };
-  }
+  const VerifiedFillOptions fill_options{h, options.narrow_width * h,
+                                         options.max_hole_perimeter * h};
   const VerifiedFills fills = fill_verified(mesh, table, requests, fill_options);
   report.filled_holes += fills.filled_holes;
   report.filled_faces += fills.filled_faces;
@@ -182,26 +129,13 @@ void widen(TriangleMesh& mesh, const std::vector<std::uint8_t>& vertices) {
   });
 }
 
-/// Of faces around holes that could not be closed in the end.
-void put_back(TriangleMesh& mesh, const RemovedFaces& removed, const PointGrid& cloud,
-              const FinishOptions& options, FinishReport& report) {
-  const std::size_t count = removed.put_back(mesh);
-  if (count == 0) return;
-  report.faces_put_back += count;
-  clean(mesh, options, report);
-  fill(mesh, true, {}, nullptr, cloud, options, report);
-}
-
 }  // namespace
 
 void repair(TriangleMesh& mesh, const Pairs& crossing, const PointGrid& cloud,
             const FinishOptions& options, FinishReport& report, const Progress& progress) {
   cut_pairs(mesh, crossing, report);
   // From here on nothing crosses: faces only go, and what comes is checked.
-  const int rounds =
-      report.faces_put_back > 0 ? std::min(options.rounds, kRoundsAgain) : options.rounds;
-  std::optional<RemovedFaces> removed;
-  for (int round = 0; round < rounds; ++round) {
+  for (int round = 0; round < options.rounds; ++round) {
     progress.check_stop();
     clean(mesh, options, report);
     bridge(mesh, cloud, options, report);
@@ -209,13 +143,10 @@ void repair(TriangleMesh& mesh, const Pairs& crossing, const PointGrid& cloud,
     report.joined_loops += joined.pairs;
     if (round >= kRoundsToJoin) joined.is_hindered.clear();
     const bool is_zipped = round > 0;
-    const FillOutcome outcome = fill(mesh, is_zipped, joined.is_hindered,
-                                     removed ? &*removed : nullptr, cloud, options, report);
-    if (outcome.is_done || round + 1 == rounds) break;
-    if (!removed && options.narrow_gaps) removed.emplace(mesh);
+    const FillOutcome outcome = fill(mesh, is_zipped, joined.is_hindered, cloud, options, report);
+    if (outcome.is_done || round + 1 == options.rounds) break;
     widen(mesh, outcome.unfilled);
   }
-  if (removed) put_back(mesh, *removed, cloud, options, report);
   remove_unused_vertices(mesh);
 }
 

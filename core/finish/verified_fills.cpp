@@ -102,16 +102,10 @@ class Filler {
       request_of.resize(fills.size(), chosen[k]);
     }
     const std::vector<std::uint8_t> fails = failing_fills(mesh_, fills);
-    const std::vector<std::uint8_t> refused = refused_fills(fills, fails, request_of, shape_of);
     const std::size_t base = mesh_.positions.size();
     std::vector<std::uint8_t> is_served(requests_.size(), 0);
     for (std::size_t i = 0; i < fills.size(); ++i) {
       if (fails[i] != 0 || fills[i].triangles.empty()) continue;
-      if (refused[i] != 0) {
-        result_.refused.push_back(request_of[i]);
-        is_served[request_of[i]] = 1;
-        continue;
-      }
       append_fill(mesh_, fills[i], base);
       result_.filled_faces += fills[i].triangles.size();
       const bool is_piece = shape_of(request_of[i]) == FillShape::zipped;
@@ -122,23 +116,6 @@ class Filler {
       if (is_served[request] == 0 && requests_[request].shape != FillShape::zipped)
         result_.rejected.push_back(request);
     }
-  }
-
-  /// Flags the fills of whole loops that may not stay.
-  template <class ShapeOf>
-  [[nodiscard]] std::vector<std::uint8_t> refused_fills(const std::vector<HoleFill>& fills,
-                                                        const std::vector<std::uint8_t>& fails,
-                                                        const std::vector<std::size_t>& request_of,
-                                                        const ShapeOf& shape_of) const {
-    std::vector<std::uint8_t> refused(fills.size(), 0);
-    if (!options_.may_stay) return refused;
-    parallel_for(fills.size(), 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        if (fails[i] != 0 || shape_of(request_of[i]) == FillShape::zipped) continue;
-        refused[i] = options_.may_stay(requests_[request_of[i]].loop, fills[i]) ? 0 : 1;
-      }
-    });
-    return refused;
   }
 
   TriangleMesh& mesh_;

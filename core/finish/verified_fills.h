@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <vector>
 
@@ -19,8 +18,6 @@ struct VerifiedFillOptions {
   double edge_length = 0.0;  ///< of new edges, model units; see fill_loop
   double zip_width = 0.0;    ///< sides this close get zipped, model units; see zip_loop
   double zipped_from = std::numeric_limits<double>::infinity();  ///< perimeter, model units
-  /// Whether a fill of a whole loop may stay; absent: all may. Called from several threads.
-  std::function<bool(const BoundaryLoop&, const HoleFill&)> may_stay;
 };
 
 struct VerifiedFills {
@@ -28,7 +25,6 @@ struct VerifiedFills {
   std::size_t filled_faces = 0;
   std::size_t zipped_pieces = 0;
   std::vector<std::size_t> rejected;  ///< indices of requests to fill that nothing was done for
-  std::vector<std::size_t> refused;   ///< the same, of which may_stay did not let the fill stay
 };
 
 /// Fills loops and keeps the fills whose faces neither cross the mesh, nor each other, nor have no

@@ -278,10 +278,8 @@ void describe(Fields& f, FinishMesh& command) {
   f.boolean("snap_features", snap_features, "moves vertices onto sharp edges and corners");
   f.number("gap", gap, kNotNegative,
            "model units; between the contours that the points lie on; 0: they are spread evenly");
-  f.boolean("narrow_gaps", narrow_gaps,
-            "keeps surface rather than closing holes, and cuts handles where no points lie");
-  f.boolean("regrow", regrow,
-            "borders grow over points that no scan has reached; for points without noise");
+  f.boolean("narrow_gaps", narrow_gaps, "cuts handles where no points lie");
+  f.boolean("regrow", regrow, "the mesh grows over points that no scan has reached");
   f.boolean("follow_density", follow_density,
             "full: smaller triangles where the points are denser than pixel_size asks for");
   f.integer("min_component", min_component, kCount, "triangles; smaller pieces are dropped");
