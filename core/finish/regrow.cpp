@@ -75,16 +75,6 @@ std::vector<Vec3> points_near(std::span<const Vec3> points, const PointGrid& pla
   return near;
 }
 
-std::vector<Vec3> points_off(std::span<const Vec3> points, const TriangleMesh& mesh,
-                             double distance) {
-  const std::vector<std::uint8_t> is_covered = covered_points(points, mesh, distance);
-  std::vector<Vec3> off;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (is_covered[i] == 0) off.push_back(points[i]);
-  }
-  return off;
-}
-
 Box region_of(const TriangleMesh& mesh, double h) {
   Box region = bounds_of(mesh);
   region.lower -= Vec3(kPart * h);

@@ -140,4 +140,14 @@ std::vector<std::uint8_t> covered_points(std::span<const Vec3> points, const Tri
   return covered;
 }
 
+std::vector<Vec3> points_off(std::span<const Vec3> points, const TriangleMesh& mesh,
+                             double distance) {
+  const std::vector<std::uint8_t> is_covered = covered_points(points, mesh, distance);
+  std::vector<Vec3> off;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (is_covered[i] == 0) off.push_back(points[i]);
+  }
+  return off;
+}
+
 }  // namespace rangezip

@@ -15,4 +15,8 @@ namespace rangezip {
 [[nodiscard]] std::vector<std::uint8_t> covered_points(std::span<const Vec3> points,
                                                        const TriangleMesh& mesh, double distance);
 
+/// Those of `points`, in their order, that no face of `mesh` lies within `distance` of.
+[[nodiscard]] std::vector<Vec3> points_off(std::span<const Vec3> points, const TriangleMesh& mesh,
+                                           double distance);
+
 }  // namespace rangezip
