@@ -25,7 +25,7 @@ std::size_t count_within(const PointGrid& points, const Vec3& place, double radi
 
 std::vector<Vec3> left_out_points(std::span<const Vec3> points, const TriangleMesh& mesh,
                                   double distance) {
-  const std::vector<Vec3> uncovered = points_off(points, mesh, distance);
+  std::vector<Vec3> uncovered = points_off(points, mesh, distance);
   if (uncovered.empty() || mesh.empty()) return uncovered;
   const double radius = kSurroundings * distance;
   Box region = bounds_of(mesh);  // what lies outside is left out as a whole
