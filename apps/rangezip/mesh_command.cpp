@@ -178,6 +178,11 @@ void add_mesh_command(CLI::App& app, Action& action) {
              "Let triangles grow where they stay within this of the surface, in pixel sizes: fewer "
              "where it is flat, such as 0.05 [all of about one size]",
              "TOLERANCE");
+  add_parsed(
+      command, "--close-holes", options->reconstruct.close_holes, parse_positive,
+      "Close holes up to this perimeter, in pixel sizes, even where no points show a surface: "
+      "such as 60 [those that points show, and gaps of the sampling]",
+      "PERIMETER");
   add_parsed(command, "--views", options->reconstruct.views, parse_views,
              "How many views to plan at most, or auto: until the input is covered [auto]",
              "N|auto");

@@ -179,6 +179,8 @@ CASES = [
       for two, gaps in (('spheres', (2, 3)), ('slabs', (2, 3, 4)), ('bars', (2, 3, 4))) for gap in gaps),
     *(body(f'{deep} {width}', 9 if deep == 'drilled' else 0, [Bound('cloud_within_05', '>=', 0.998)])
       for deep in ('slot', 'cavity', 'drilled') for width in (2, 3, 6)),
+    *(made(f'perforated {width}', [Bound('components', '==', 1), Bound('boundary_loops', '==', 10)], RIGHT_SIDE_OUT)
+      for width in (6, 8, 16)),
     body('noisy 0.05', 1, RIGHT_SIDE_OUT), body('noisy 0.1', 1, RIGHT_SIDE_OUT), body('noisy 0.2', 1, RIGHT_SIDE_OUT),
     body('contours', 1),
     body('density', 0, [Bound('accuracy_rms', '<=', 0.0001, True)]),

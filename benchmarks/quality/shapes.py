@@ -306,6 +306,23 @@ def drilled(width, thickness=8.0):
     return plate.surface()
 
 
+def perforated(width, side=160.0, step=0.25):
+    """A wavy sheet with nine round holes: an open surface."""
+    count = int(side / step) + 1
+    x, y = np.meshgrid(np.linspace(-side / 2, side / 2, count), np.linspace(-side / 2, side / 2, count), indexing='ij')
+    vertices = np.c_[x.ravel(), y.ravel(), (4 * np.sin(x / 20) * np.cos(y / 16)).ravel()]
+    index = np.arange(count * count).reshape(count, count)
+    a, b, c, d = (index[s, t].ravel() for s, t in ((slice(-1), slice(-1)), (slice(1, None), slice(-1)),
+                                                   (slice(1, None), slice(1, None)), (slice(-1), slice(1, None))))
+    faces = np.concatenate([np.c_[a, b, c], np.c_[a, c, d]])
+    middle = vertices[faces][:, :, :2].mean(axis=1)
+    for center in [(u, v) for u in (-45, 0, 45) for v in (-45, 0, 45)]:
+        keep = np.linalg.norm(middle - center, axis=1) > width / 2
+        faces, middle = faces[keep], middle[keep]
+    used, faces = np.unique(faces, return_inverse=True)
+    return vertices[used], faces.reshape(-1, 3)
+
+
 def make(name):
     """The shape of that name, or of `name value`."""
     kind, _, value = name.partition(' ')
@@ -325,6 +342,7 @@ def make(name):
         'slot': lambda: drawn(slot(size), 17),
         'cavity': lambda: drawn(cavity(size), 18),
         'drilled': lambda: drawn(drilled(size), 19, genus=DRILLED),
+        'perforated': lambda: drawn(perforated(size), 20),
         'noisy': lambda: drawn(torus(50, 20), 10, genus=1, noise=size / 100),
         'contours': lambda: contours(torus(50, 20), 3.0, 0.5, 11, genus=1),
         'density': lambda: two_densities(box(100, 100, 100), 200_000, 12),
@@ -338,5 +356,6 @@ NAMES = (['sphere', 'torus', 'trefoil', 'bowl'] + ['plate %g' % t for t in (0.3,
          ['shell %g' % t for t in (0.3, 0.9, 2, 3, 5)] + ['cube'] + ['pocket %g' % d for d in (0.5, 1, 2)] +
          ['spheres %g' % g for g in (0, 0.3, 0.8, 2, 3)] +
          [f'{two} {gap}' for two in ('slabs', 'bars') for gap in (2, 3, 4)] +
-         [f'{deep} {width}' for deep in ('slot', 'cavity', 'drilled') for width in (2, 3, 6)] + ['noisy %g' % n for n in (0.05, 0.1, 0.2)] +
+         [f'{deep} {width}' for deep in ('slot', 'cavity', 'drilled') for width in (2, 3, 6)] +
+         [f'perforated {width}' for width in (6, 8, 16)] + ['noisy %g' % n for n in (0.05, 0.1, 0.2)] +
          ['contours', 'density', 'density-bumps', 'fingers'])

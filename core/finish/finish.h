@@ -16,11 +16,12 @@ enum class FinishMethod {
 
 struct FinishOptions {
   FinishMethod method = FinishMethod::full;
-  double pixel_size = 0.0;           ///< h, model units, of the scans; must be positive
-  double max_hole_perimeter = 60.0;  ///< in h: larger holes without points in them stay
-  double narrow_width = 3.0;         ///< in h: cracks up to this are closed whatever their length
-  int rounds = 8;                    ///< of {cut self-intersections, bridge, fill}, at most
-  int relaxations = 7;               ///< of {split, collapse, flip, relax, project}
+  double pixel_size = 0.0;          ///< h, model units, of the scans; must be positive
+  double max_hole_perimeter = 0.0;  ///< in h: holes up to this are closed even if the cloud shows
+                                    ///< that the surface was not sampled there
+  double narrow_width = 3.0;        ///< in h: cracks up to this are closed whatever their length
+  int rounds = 8;                   ///< of {cut self-intersections, bridge, fill}, at most
+  int relaxations = 7;              ///< of {split, collapse, flip, relax, project}
   std::size_t triangles = 0;    ///< target of `full`, met within a few percent; 0: as many as come
   double flat_tolerance = 0.0;  ///< in h: `full` lets triangles grow where they stay within this of
                                 ///< the surface; 0, or with `triangles`: as many as are asked for

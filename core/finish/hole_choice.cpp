@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/finish/unsupported_faces.h"
+
 namespace rangezip {
 namespace {
 
@@ -23,6 +25,8 @@ constexpr double kMinOutline = 30.0;
 /// Area over squared perimeter, 1 for a circle: of a loop below, a crack or a ribbon, only a fill
 /// tells whether it folds back.
 constexpr double kSlit = 0.15;
+/// In h: where points tell nothing, a hole longer than this is large.
+constexpr double kLargePerimeter = 60.0;
 /// A long hole counts as large if it is also wider than this share of the largest perimeter; a
 /// round one is wider than 0.3 of its perimeter.
 constexpr double kLargeWidth = 0.25;
@@ -38,6 +42,10 @@ constexpr double kInsideMargin = 1.5;
 constexpr double kEvidenceRadius = 1.0;
 constexpr double kEvidenceShare = 0.3;
 constexpr int kMinEvidenceSamples = 3;
+/// Gaps that are no wider come from how points happen to lie: of points spread at random one disc
+/// in a million is empty out to 2.1 spacings.
+constexpr SupportReach kGapSupport{1.75, 3.0};
+constexpr double kShownLoop = 0.9;  // of the vertices of a loop
 
 struct LoopGeometry {
   std::vector<Vec3> points;
@@ -123,6 +131,27 @@ FillInside look_inside(const LoopGeometry& loop, const HoleFill& fill, const Poi
   return inside;
 }
 
+/// Whether at some place of a fill the surface was not sampled, as points around it show. A loop
+/// that strays from the points itself tells nothing.
+/// @param positions of the table's vertices
+bool is_left_out(const LoopGeometry& loop, const std::vector<Vec3>& positions, const HoleFill& fill,
+                 const PointGrid& cloud, double pixel_size) {
+  const auto is_shown = [&](const Vec3& place) {
+    return is_supported(cloud, place, pixel_size, kFaceSupport);
+  };
+  const auto corner = [&](std::uint32_t v) {
+    return v < positions.size() ? positions[v] : fill.new_positions[v - positions.size()];
+  };
+  const bool has_gap =
+      std::any_of(fill.triangles.begin(), fill.triangles.end(), [&](const Triangle& t) {
+        const Vec3 middle = (corner(t[0]) + corner(t[1]) + corner(t[2])) / 3.0;
+        return !is_supported(cloud, middle, pixel_size, kGapSupport);
+      });
+  if (!has_gap) return false;
+  const auto shown = std::count_if(loop.points.begin(), loop.points.end(), is_shown);
+  return static_cast<double>(shown) >= kShownLoop * static_cast<double>(loop.points.size());
+}
+
 }  // namespace
 
 std::optional<FillShape> choose_fill(const std::vector<Vec3>& positions, const CornerTable& table,
@@ -139,7 +168,11 @@ std::optional<FillShape> choose_fill(const std::vector<Vec3>& positions, const C
   if (is_rim(geometry, is_zipped, h)) return std::nullopt;
   if (inside.width < options.narrow_width * h) return FillShape::flat;
   if (!is_zipped) return FillShape::zipped;
-  const double limit = options.max_hole_perimeter * h;
+  const bool is_to_close = geometry.perimeter <= options.max_hole_perimeter * h;
+  if (!is_to_close && options.is_sampled && is_left_out(geometry, positions, fill, cloud, h)) {
+    return std::nullopt;
+  }
+  const double limit = std::max(options.max_hole_perimeter, kLargePerimeter) * h;
   if (geometry.perimeter > limit && inside.width > kLargeWidth * limit) return std::nullopt;
   return geometry.perimeter <= kSmoothPerimeter * h ? FillShape::smooth : FillShape::flat;
 }

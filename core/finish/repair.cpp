@@ -23,6 +23,8 @@ namespace {
 
 /// Rounds in which loops that are to be joined, but are hindered, are kept open for the next one.
 constexpr int kRoundsToJoin = 3;
+/// In h: loops up to this that cannot be closed otherwise are zipped.
+constexpr double kLongestZipped = 60.0;
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
@@ -87,7 +89,7 @@ FillOutcome fill(TriangleMesh& mesh, bool is_zipped, const std::vector<std::uint
   std::vector<BoundaryLoop> loops = boundary_loops(table);
   const std::vector<BoundaryLoop> hindered = hindered_among(loops, table, is_hindered);
   const HoleChoiceOptions choice{options.pixel_size, options.max_hole_perimeter,
-                                 options.narrow_width};
+                                 options.narrow_width, !cloud.empty() && options.gap == 0.0};
   std::vector<std::optional<FillShape>> shapes(loops.size());
   parallel_for(loops.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -99,8 +101,7 @@ FillOutcome fill(TriangleMesh& mesh, bool is_zipped, const std::vector<std::uint
     if (shapes[i]) requests.push_back({std::move(loops[i]), *shapes[i]});
   }
   const double h = options.pixel_size;
-  const VerifiedFillOptions fill_options{h, options.narrow_width * h,
-                                         options.max_hole_perimeter * h};
+  const VerifiedFillOptions fill_options{h, options.narrow_width * h, kLongestZipped * h};
   const VerifiedFills fills = fill_verified(mesh, table, requests, fill_options);
   report.filled_holes += fills.filled_holes;
   report.filled_faces += fills.filled_faces;

@@ -265,7 +265,7 @@ void describe(Fields& f, FinishMesh& command) {
   f.number("pixel_size", pixel_size, kNotNegative,
            "of the scans, model units; 0: the mesh's mean edge length");
   f.number("max_hole_perimeter", max_hole_perimeter, kNotNegative,
-           "pixel sizes; longer loops stay open unless narrow");
+           "pixel sizes; loops up to this are closed even where no points show a surface");
   f.number("narrow_width", narrow_width, kNotNegative,
            "pixel sizes; loops whose sides face each other within this are always closed");
   f.integer("rounds", rounds, kCount, "of removing self-intersections and closing, at most");

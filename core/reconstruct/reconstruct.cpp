@@ -359,6 +359,7 @@ class Run {
       command.options.pixel_size = recipe_.pixel_size;
       command.options.triangles = options_.triangles.value_or(0);
       command.options.flat_tolerance = options_.decimate.value_or(0.0);
+      command.options.max_hole_perimeter = options_.close_holes;
       command.options.gap = recipe_.gap;
       command.options.narrow_gaps = has_narrow_gaps_;
       command.options.regrow = is_plain_cloud();

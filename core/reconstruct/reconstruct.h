@@ -29,6 +29,8 @@ struct ReconstructOptions {
   std::optional<int> views;              ///< planned views; absent: until the cloud is covered
   std::optional<double> decimate;        ///< in pixel sides: triangles grow where they stay within
                                          ///< this of the surface, in the full finish, else in scans
+  double close_holes = 0.0;              ///< in pixel sides: the finish closes holes up to this
+                                         ///< perimeter even where no points show a surface
   std::optional<FinishMethod> finish = FinishMethod::full;  ///< absent: no finish
   int threads = 0;  ///< 0: all of the machine; the mesh never depends on it
 };

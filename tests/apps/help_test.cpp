@@ -28,7 +28,7 @@ TEST_CASE("the help of a command names its options", "[apps]") {
   const std::vector<std::pair<std::string, std::vector<std::string>>> commands{
       {"mesh",
        {"INPUT", "-o", "--backend", "--method", "--pixel-size", "--triangles", "--threads",
-        "--views", "--finish", "--report", "--session", "--quiet", "--decimate"}},
+        "--views", "--finish", "--report", "--session", "--quiet", "--decimate", "--close-holes"}},
       {"scan",
        {"INPUT",        "--direction",   "--up",          "--size",           "--pixel-size",
         "--point-size", "--region",      "--clip",        "--perspective",    "--into",

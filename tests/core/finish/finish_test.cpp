@@ -214,6 +214,30 @@ TEST_CASE("a large hole is closed if the cloud has points in it, and stays other
   REQUIRE(report_mesh(finish(mesh, cloud_with_hole, options).mesh).euler == 1);
 }
 
+TEST_CASE("a hole of a few pixels stays where the points around it leave it out, unless asked to") {
+  constexpr int kN = 40;
+  TriangleMesh mesh = testing::sphere(kN);
+  const auto is_left_out = [](const Vec3& p) { return p.z > 0.985; };  // about seven pixels across
+  testing::cut_where(mesh, is_left_out);
+  std::vector<Vec3> cloud = sphere_points(60000, 4);
+  std::erase_if(cloud, is_left_out);
+  FinishOptions options = options_for(kN, FinishMethod::full);
+  CHECK(report_mesh(finish(mesh, cloud, options).mesh).euler == 1);
+  options.max_hole_perimeter = 30.0;
+  CHECK(report_mesh(finish(mesh, cloud, options).mesh).euler == 2);
+}
+
+TEST_CASE("points so sparse that discs of two pixels hold none show no hole") {
+  constexpr int kN = 40;
+  TriangleMesh mesh = testing::sphere(kN);
+  const auto is_cut = [](const Vec3& p) { return p.z > 0.985; };
+  testing::cut_where(mesh, is_cut);
+  std::vector<Vec3> cloud = sphere_points(900, 5);  // three pixels apart
+  std::erase_if(cloud, is_cut);
+  const FinishOptions options = options_for(kN, FinishMethod::fast);
+  CHECK(report_mesh(finish(mesh, cloud, options).mesh).euler == 2);
+}
+
 TEST_CASE("a crack between two pieces is bridged and closed") {
   constexpr int kN = 32;
   TriangleMesh mesh = testing::sphere(kN);
