@@ -6,14 +6,15 @@
 #include <numeric>
 #include <optional>
 #include <queue>
+#include <set>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "core/base/cubes.h"
+#include "core/finish/crossing_guard.h"
 #include "core/finish/triangle_shape.h"
 #include "core/mesh/edge_map.h"
-#include "core/mesh/self_intersection.h"
 
 namespace rangezip {
 namespace {
@@ -30,6 +31,7 @@ constexpr double kNeedle = 0.1;  ///< sine of a smallest angle
 constexpr double kBendCost = 1.0;
 /// In radii of 1 h, when faces of several edges compete: what is flat comes first.
 constexpr double kBendDelay = 2.0;
+constexpr double kGuardCube = 1.5;           ///< in h
 constexpr double kApart = 0.6;               ///< in h: points that are taken
 constexpr double kReach = 2.0;               ///< in h, of points: border vertices that are joined
 constexpr std::size_t kFacesPerLook = 4096;  ///< between looks at whether to stop
@@ -106,7 +108,7 @@ struct Step {
 class Front {
  public:
   Front(TriangleMesh& mesh, std::span<const Vec3> points, double h)
-      : mesh_(mesh), h_(h), edges_(3 * mesh.triangles.size()) {
+      : mesh_(mesh), h_(h), edges_(3 * mesh.triangles.size()), guard_(mesh, kGuardCube * h) {
     const std::vector<Vec3> apart = points_apart(points, kApart * h);
     const auto old_vertices = static_cast<std::uint32_t>(mesh.positions.size());
     mesh.positions.insert(mesh.positions.end(), apart.begin(), apart.end());
@@ -126,12 +128,15 @@ class Front {
       const Step step = steps_.top();
       steps_.pop();
       if (!is_open(step.from, step.to)) continue;
-      if (!may_take(step.from, step.to, step.tip)) {
+      const Triangle beyond{step.to, step.from, step.tip};
+      if (!may_take(step.from, step.to, step.tip) || guard_.would_cross(beyond)) {
+        refused_.insert(beyond);
         look_beyond(step.from, step.to);
         continue;
       }
       const auto face = static_cast<std::uint32_t>(mesh_.triangles.size());
-      mesh_.triangles.push_back({step.to, step.from, step.tip});
+      mesh_.triangles.push_back(beyond);
+      guard_.add(face);
       enter(face);
       look_beyond(face);
     }
@@ -205,6 +210,7 @@ class Front {
       const std::optional<Beyond> beyond = face_beyond(a, b, v, face);
       if (!beyond || !may_take(a, b, v)) return;
       if (best && std::tie(beyond->value, v) >= std::tie(least, best->tip)) return;
+      if (refused_.contains({b, a, v})) return;
       least = beyond->value;
       best = Step{beyond->cost, a, b, v};
     });
@@ -248,20 +254,10 @@ class Front {
   std::vector<int> open_edges_;       ///< of each vertex, without a face on one side
   std::vector<std::uint8_t> is_tip_;  ///< whether faces may come to a vertex
   CubeLists near_{{}, 1.0};           ///< the tips
+  CrossingGuard guard_;
+  std::set<Triangle> refused_;  ///< faces that were best once, but could not be made
   std::priority_queue<Step, std::vector<Step>, std::greater<>> steps_;
 };
-
-/// Of the faces from `first` on those that cross another.
-void drop_crossing(TriangleMesh& mesh, std::size_t first) {
-  std::vector<std::uint32_t> added(mesh.triangles.size() - first);
-  std::iota(added.begin(), added.end(), static_cast<std::uint32_t>(first));
-  std::vector<std::uint8_t> goes(mesh.triangles.size(), 0);
-  for (const auto& [i, j] : self_intersections(mesh, added)) {
-    for (const std::uint32_t f : {i, j})
-      goes[f] = f >= first ? 1 : 0;
-  }
-  remove_triangles(mesh.triangles, goes);
-}
 
 }  // namespace
 
@@ -270,7 +266,6 @@ std::size_t advance_front(TriangleMesh& mesh, std::span<const Vec3> points, doub
   const std::size_t before = mesh.triangles.size();
   if (before == 0 || points.empty()) return 0;
   Front(mesh, points, pixel_size).run(progress);
-  drop_crossing(mesh, before);
   return mesh.triangles.size() - before;
 }
 

@@ -17,7 +17,7 @@ namespace rangezip {
 /// No circle has a radius over 0.9 h, so no face leads over a gap of 2 h; with a bend of over 45
 /// degrees it has 0.7 h at most. Sharper bends than 95 degrees are not made, nor faces that look
 /// away from those around a vertex that they join. Of points nearer to each other than 0.6 h one is
-/// taken. Faces that cross anything are taken back.
+/// taken. A face that would cross another gives way to the next best.
 ///
 /// The mesh stays oriented, and its faces stay; the new ones come last. A vertex where fronts have
 /// met may be left with several fans (core/finish/clean_topology.h), and points that were not

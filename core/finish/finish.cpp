@@ -40,6 +40,7 @@ constexpr int kThinnedParts = 2;
 constexpr double kThinHandle = 5.5;
 /// Between contours a window may span four gaps: two contours on both sides tell the bending.
 constexpr double kWidestPerGap = 5.0;
+constexpr int kRegrowRounds = 3;
 constexpr int kHandleRounds = 6;  ///< of {cut, close}: paths that touch are cut one by one
 /// Points a face: with more, flat triangles are farther from the surface than its fits.
 constexpr std::size_t kDensePoints = 4;
@@ -80,10 +81,24 @@ Box region_of(const TriangleMesh& mesh, double margin) {
   return region;
 }
 
+/// Grows over what no scan has reached, and closes what is left open. Around what cannot be closed
+/// faces go: there it grows again.
+void close(TriangleMesh& mesh, std::span<const Vec3> cloud, const PointGrid& points,
+           const FinishOptions& options, FinishReport& report, const Progress& progress) {
+  for (int round = 0; round < kRegrowRounds; ++round) {
+    const std::size_t grown =
+        options.regrow ? regrow(mesh, cloud, points, options.pixel_size, progress) : 0;
+    report.regrown_faces += grown;
+    if (round > 0 && grown == 0) return;
+    repair(mesh, self_intersections(mesh), points, options, report, progress);
+    if (grown == 0) return;
+  }
+}
+
 /// Cuts handles that seams made where sheets come close, and closes the holes.
 void remove_thin_handles(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
                          FinishReport& report, const Progress& progress) {
-  HandleEvidence evidence;
+  CloudEvidence evidence;
   if (options.narrow_gaps) evidence = {&cloud, options.pixel_size};
   for (int round = 0; round < kHandleRounds; ++round) {
     const std::size_t cut = cut_thin_handles(mesh, kThinHandle * options.pixel_size, evidence);
@@ -249,8 +264,7 @@ FinishResult finish(TriangleMesh mesh, std::span<const Vec3> cloud, const Finish
   const double h = options.pixel_size;
   const PointGrid points(cloud, region_of(mesh, kRegionMargin * h), kPointCell * h);
   clean_topology(mesh);
-  if (options.regrow) result.report.regrown_faces = regrow(mesh, cloud, points, h, progress);
-  repair(mesh, self_intersections(mesh), points, options, result.report, progress);
+  close(mesh, cloud, points, options, result.report, progress);
   remove_thin_handles(mesh, points, options, result.report, progress);
   if (options.method == FinishMethod::full) improve(mesh, points, options, result.report, progress);
   remove_unused_vertices(mesh);

@@ -162,7 +162,8 @@ std::optional<FillShape> choose_fill(const std::vector<Vec3>& positions, const C
   const LoopGeometry geometry = geometry_of(positions, table, loop);
   if (geometry.perimeter <= kSmallPerimeter * h) return FillShape::smooth;
   if (is_outline(geometry, positions, table, loop, h)) return std::nullopt;
-  const HoleFill fill = fill_loop(positions, table, loop, FillShape::smooth, h);
+  const CloudEvidence evidence = options.is_sampled ? CloudEvidence{&cloud, h} : CloudEvidence{};
+  const HoleFill fill = fill_loop(positions, table, loop, FillShape::smooth, h, evidence);
   const FillInside inside = look_inside(geometry, fill, cloud, h);
   if (inside.shown == Inside::points) return FillShape::smooth;
   if (is_rim(geometry, is_zipped, h)) return std::nullopt;

@@ -60,9 +60,10 @@ LoopSurroundings surroundings_of(const std::vector<Vec3>& positions, const Corne
 }  // namespace
 
 HoleFill fill_loop(const std::vector<Vec3>& positions, const CornerTable& table,
-                   const BoundaryLoop& loop, FillShape shape, double edge_length) {
+                   const BoundaryLoop& loop, FillShape shape, double edge_length,
+                   const CloudEvidence& evidence) {
   const std::vector<std::uint32_t> vertices = vertices_of(loop, table);
-  const LoopShape polygon = shape_of(loop, table, positions);
+  const LoopShape polygon = shape_of(loop, table, positions, evidence);
   FillPatch patch{polygon.points, triangulate_loop(polygon), vertices.size()};
   if (shape != FillShape::coarse && !patch.triangles.empty() &&
       is_worth_refining(polygon, edge_length)) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/finish/boundary_loops.h"
+#include "core/finish/cloud_evidence.h"
 #include "core/finish/corner_table.h"
 #include "core/mesh/triangle_mesh.h"
 
@@ -31,9 +32,11 @@ struct HoleFill {
 /// Empty if there is no such triangulation.
 /// @param edge_length of new edges, model units; 0: as long as those around the hole
 /// @param positions of the table's vertices; more may follow
+/// @param evidence points to air, which a fill avoids
 /// @pre shape is not FillShape::zipped
 [[nodiscard]] HoleFill fill_loop(const std::vector<Vec3>& positions, const CornerTable& table,
-                                 const BoundaryLoop& loop, FillShape shape, double edge_length);
+                                 const BoundaryLoop& loop, FillShape shape, double edge_length,
+                                 const CloudEvidence& evidence = {});
 
 /// Closes a loop only where its sides are close together: of the least sharp triangulation it takes
 /// the triangles with all sides up to max_edge that continue the surface beside them, in pieces
@@ -42,7 +45,7 @@ struct HoleFill {
 /// @param max_edge model units
 [[nodiscard]] std::vector<HoleFill> zip_loop(const std::vector<Vec3>& positions,
                                              const CornerTable& table, const BoundaryLoop& loop,
-                                             double max_edge);
+                                             double max_edge, const CloudEvidence& evidence = {});
 
 /// Mean cosine between a fill's faces and the mesh's across the edges of its loops: 1 where it
 /// continues the surface, -1 where it folds back.

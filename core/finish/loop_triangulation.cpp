@@ -1,8 +1,10 @@
 #include "core/finish/loop_triangulation.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 namespace rangezip {
@@ -37,43 +39,61 @@ constexpr std::size_t kMaxDirectEdges = 100;
 /// A chord leaves at least this share of the loop on either side.
 constexpr std::size_t kDivideIntoAtLeast = 4;
 
+constexpr double kLongSide = 1.5;  // in h
+
 /// A piece of the loop: indices of its points, and the normals across its edges.
 struct Piece {
   std::vector<std::uint32_t> points;
   std::vector<Vec3> edge_normals;
 };
 
-/// How bad a triangulation is: first by its sharpest edge, then by its area.
+/// How bad a triangulation is: first by what leads through air, then by its sharpest edge, then by
+/// its area.
 struct Weight {
+  double air = 0.0;    ///< twice the area that leads through air
   double angle = 0.0;  ///< the largest 1 - cos between neighbours
   double area = 0.0;   ///< twice the area
 
   friend bool operator<(const Weight& a, const Weight& b) {
-    return a.angle != b.angle ? a.angle < b.angle : a.area < b.area;
+    return std::tie(a.air, a.angle, a.area) < std::tie(b.air, b.angle, b.area);
   }
 };
 
-constexpr Weight kImpossible{std::numeric_limits<double>::infinity(),
-                             std::numeric_limits<double>::infinity()};
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr Weight kImpossible{kInfinity, kInfinity, kInfinity};
 
 /// 0 for parallel unit normals, 2 for a fold; nothing across: no angle.
 double bend(const Vec3& a, const Vec3& b) {
   return glm::dot(b, b) > 0.0 ? 1.0 - glm::dot(a, b) : 0.0;
 }
 
+/// Whether the middle of a long side, or that of the triangle if it has one, is in the air.
+bool leads_through_air(const LoopShape& shape, const Triangle& t) {
+  const std::array<Vec3, 3> corners{shape.points[t[0]], shape.points[t[1]], shape.points[t[2]]};
+  bool is_long = false;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Vec3 &p = corners[c], &q = corners[(c + 1) % 3];
+    if (glm::length(q - p) <= shape.long_side) continue;
+    is_long = true;
+    if (shape.is_in_air(0.5 * (p + q))) return true;
+  }
+  return is_long && shape.is_in_air((corners[0] + corners[1] + corners[2]) / 3.0);
+}
+
 /// The table of best triangulations of all sub-polygons i..k of a piece.
 class Triangulator {
  public:
-  Triangulator(const LoopShape& shape, const Piece& piece)
+  Triangulator(const LoopShape& shape, const Piece& piece, bool avoids_air)
       : shape_(shape),
         piece_(piece),
+        avoids_air_(avoids_air),
         size_(piece.points.size()),
         weights_(size_ * size_, kImpossible),
         normals_(size_ * size_, Vec3{0.0}),
         middles_(size_ * size_, 0) {}
 
-  /// Appends the best triangulation; false if there is none.
-  bool run(std::vector<Triangle>& triangles) {
+  /// The best triangulation; empty if there is none.
+  std::vector<Triangle> run() {
     for (std::size_t i = 0; i + 1 < size_; ++i) {
       weights_[slot(i, i + 1)] = Weight{};
       normals_[slot(i, i + 1)] = piece_.edge_normals[i];
@@ -82,9 +102,8 @@ class Triangulator {
       for (std::size_t i = 0; i + span < size_; ++i)
         choose_middle(i, i + span);
     }
-    if (weights_[slot(0, size_ - 1)].angle == kImpossible.angle) return false;
-    collect(triangles);
-    return true;
+    if (weights_[slot(0, size_ - 1)].air == kInfinity) return {};
+    return collect();
   }
 
  private:
@@ -98,23 +117,33 @@ class Triangulator {
     for (std::size_t m = i + 1; m < k; ++m) {
       const Weight& left = weights_[slot(i, m)];
       const Weight& right = weights_[slot(m, k)];
-      Weight weight{std::max(left.angle, right.angle), left.area + right.area};
-      if (!(weight.angle <= weights_[here].angle) || weight.angle == kImpossible.angle) continue;
+      Weight weight{left.air + right.air, std::max(left.angle, right.angle),
+                    left.area + right.area};
+      if (weight.air == kInfinity || is_worse(weight, weights_[here])) continue;
       const Vec3 area = area_vector(point(i), point(m), point(k));
       const double length = glm::length(area);
       constexpr double kFold = 2.0;  // a triangle without area: as bad as a fold
       weight.area += length;
+      const Vec3 normal = length > 0.0 ? area / length : Vec3(0.0);
       if (length > 0.0) {
-        const Vec3 normal = area / length;
         weight.angle = std::max(
             {weight.angle, bend(normal, normals_[slot(i, m)]), bend(normal, normals_[slot(m, k)])});
         if (closes) weight.angle = std::max(weight.angle, bend(normal, piece_.edge_normals[k]));
-        if (weight < weights_[here]) set(here, weight, normal, m);
       } else {
         weight.angle = kFold;
-        if (weight < weights_[here]) set(here, weight, Vec3{0.0}, m);
       }
+      if (!(weight < weights_[here])) continue;
+      if (avoids_air_ &&
+          leads_through_air(shape_, {piece_.points[i], piece_.points[m], piece_.points[k]})) {
+        weight.air += length;
+      }
+      if (weight < weights_[here]) set(here, weight, normal, m);
     }
+  }
+
+  /// Whether nothing that is added to a weight can make it the better one.
+  static bool is_worse(const Weight& sum, const Weight& best) {
+    return std::tie(sum.air, sum.angle) > std::tie(best.air, best.angle);
   }
 
   void set(std::size_t here, const Weight& weight, const Vec3& normal, std::size_t middle) {
@@ -123,7 +152,8 @@ class Triangulator {
     middles_[here] = static_cast<std::uint32_t>(middle);
   }
 
-  void collect(std::vector<Triangle>& triangles) const {
+  [[nodiscard]] std::vector<Triangle> collect() const {
+    std::vector<Triangle> triangles;
     std::vector<std::pair<std::size_t, std::size_t>> open{{0, size_ - 1}};
     while (!open.empty()) {
       const auto [i, k] = open.back();
@@ -134,10 +164,12 @@ class Triangulator {
       open.emplace_back(i, m);
       open.emplace_back(m, k);
     }
+    return triangles;
   }
 
   const LoopShape& shape_;
   const Piece& piece_;
+  bool avoids_air_;
   std::size_t size_;
   std::vector<Weight> weights_;
   std::vector<Vec3> normals_;
@@ -149,6 +181,11 @@ struct Chord {
   std::size_t to = 0;
 };
 
+/// How much longer a chord through air counts.
+constexpr double kAirChord = 4.0;
+/// Points that happen to lie far apart let a little of any surface look like air.
+constexpr double kMuchLess = 0.5;
+
 /// The shortest allowed chord that leaves enough of the loop on either side.
 std::optional<Chord> dividing_chord(const LoopShape& shape, const Piece& piece) {
   const std::size_t n = piece.points.size();
@@ -159,8 +196,13 @@ std::optional<Chord> dividing_chord(const LoopShape& shape, const Piece& piece) 
     const Vec3& a = shape.points[piece.points[i]];
     for (std::size_t k = i + least; k < n && n - (k - i) >= least; ++k) {
       const Vec3 d = shape.points[piece.points[k]] - a;
-      const double length = glm::dot(d, d);
+      double length = glm::dot(d, d);
       if (length >= best_length || shape.is_forbidden(piece.points[i], piece.points[k])) continue;
+      if (shape.is_in_air && length > shape.long_side * shape.long_side &&
+          shape.is_in_air(a + 0.5 * d)) {
+        length *= kAirChord * kAirChord;
+        if (length >= best_length) continue;
+      }
       best_length = length;
       best = Chord{i, k};
     }
@@ -181,10 +223,30 @@ Piece part_of(const Piece& piece, std::size_t from, std::size_t to) {
   return part;
 }
 
+double area_in_air(const LoopShape& shape, const std::vector<Triangle>& triangles) {
+  double area = 0.0;
+  for (const Triangle& t : triangles) {
+    if (!leads_through_air(shape, t)) continue;
+    area += glm::length(area_vector(shape.points[t[0]], shape.points[t[1]], shape.points[t[2]]));
+  }
+  return area;
+}
+
+/// The least sharp one, or if much of that leads through air and could do without, one of those
+/// with the least in the air.
+std::vector<Triangle> triangulate_piece(const LoopShape& shape, const Piece& piece) {
+  std::vector<Triangle> blunt = Triangulator(shape, piece, false).run();
+  if (!shape.is_in_air) return blunt;
+  const double in_air = area_in_air(shape, blunt);
+  if (in_air == 0.0) return blunt;
+  std::vector<Triangle> around = Triangulator(shape, piece, true).run();
+  return area_in_air(shape, around) < kMuchLess * in_air ? around : blunt;
+}
+
 }  // namespace
 
 LoopShape shape_of(const BoundaryLoop& loop, const CornerTable& table,
-                   const std::vector<Vec3>& positions) {
+                   const std::vector<Vec3>& positions, const CloudEvidence& evidence) {
   const std::vector<std::uint32_t> vertices = vertices_of(loop, table);
   LoopShape shape;
   for (const std::uint32_t v : vertices)
@@ -195,6 +257,8 @@ LoopShape shape_of(const BoundaryLoop& loop, const CornerTable& table,
   shape.is_forbidden = [edges = LoopEdges(table, vertices)](std::uint32_t i, std::uint32_t k) {
     return edges.are_joined(i, k);
   };
+  shape.is_in_air = air_test(evidence, shape.points);
+  shape.long_side = kLongSide * evidence.pixel_size;
   return shape;
 }
 
@@ -217,7 +281,9 @@ std::vector<Triangle> triangulate_loop(const LoopShape& shape) {
       }
       return {};
     }
-    if (!Triangulator(shape, piece).run(triangles)) return {};
+    const std::vector<Triangle> part = triangulate_piece(shape, piece);
+    if (part.empty()) return {};
+    triangles.insert(triangles.end(), part.begin(), part.end());
   }
   return triangles;
 }

@@ -6,6 +6,7 @@
 
 #include "core/base/geometry.h"
 #include "core/finish/boundary_loops.h"
+#include "core/finish/cloud_evidence.h"
 #include "core/finish/corner_table.h"
 
 namespace rangezip {
@@ -16,16 +17,22 @@ struct LoopShape {
   std::vector<Vec3> edge_normals;  ///< unit normal of the face across edge i, or zero: none
   /// Whether an edge between points i and k is not to be made (there is one already).
   std::function<bool(std::uint32_t i, std::uint32_t k)> is_forbidden;
+  AirTest is_in_air;       ///< empty: nothing is known
+  double long_side = 0.0;  ///< shorter sides, model units, do not lead through air
 };
 
 /// The shape of a mesh's boundary loop: point i is vertices_of(loop, table)[i], and no edge that
 /// the mesh has may be made again.
+/// @param evidence points to air: sides over 1.5 h are doubted
 [[nodiscard]] LoopShape shape_of(const BoundaryLoop& loop, const CornerTable& table,
-                                 const std::vector<Vec3>& positions);
+                                 const std::vector<Vec3>& positions,
+                                 const CloudEvidence& evidence = {});
 
 /// Triangulates a loop without new points so that the largest angle between neighbouring faces,
 /// those across the loop included, is least, and among equals the area [Barequet, Sharir 1995;
-/// Liepa 2003]. Loops beyond 100 edges are first divided by short chords.
+/// Liepa 2003]. If that leads through air, and others with half as much of it or less, it is one of
+/// those with the least: a crack along the wall of a tube is closed along the wall, not across the
+/// tube. Loops beyond 100 edges are first divided by short chords, rather not through air.
 /// Triangles hold indices of points and run along the loop's edges. Empty if the forbidden edges
 /// leave no triangulation, or for fewer than three points.
 /// Cost: O(n^3) up to 100 edges, O(n^2) to divide longer ones.

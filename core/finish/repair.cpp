@@ -101,7 +101,9 @@ FillOutcome fill(TriangleMesh& mesh, bool is_zipped, const std::vector<std::uint
     if (shapes[i]) requests.push_back({std::move(loops[i]), *shapes[i]});
   }
   const double h = options.pixel_size;
-  const VerifiedFillOptions fill_options{h, options.narrow_width * h, kLongestZipped * h};
+  const VerifiedFillOptions fill_options{
+      h, options.narrow_width * h, kLongestZipped * h,
+      choice.is_sampled ? CloudEvidence{&cloud, h} : CloudEvidence{}};
   const VerifiedFills fills = fill_verified(mesh, table, requests, fill_options);
   report.filled_holes += fills.filled_holes;
   report.filled_faces += fills.filled_faces;

@@ -264,7 +264,7 @@ class IndependentWords {
 
 /// What each edge adds to the length of a path, by half-edge.
 std::vector<double> lengths_of(const TriangleMesh& mesh, const CornerTable& table,
-                               const HandleEvidence& evidence) {
+                               const CloudEvidence& evidence) {
   constexpr SupportReach kReach{.pixels = 0.6, .spacings = 1.3};
   constexpr double kUnsupportedScale = 0.1;
   // A hole counts as filled, and the way across is much shorter than that around.
@@ -327,7 +327,7 @@ std::vector<Cycle> short_cycles(const CornerTable& table, const std::vector<doub
 
 }  // namespace
 
-std::size_t cut_thin_handles(TriangleMesh& mesh, double max_girth, const HandleEvidence& evidence) {
+std::size_t cut_thin_handles(TriangleMesh& mesh, double max_girth, const CloudEvidence& evidence) {
   const CornerTable table(mesh.triangles, mesh.positions.size());
   if (!has_handles(table)) return 0;
   const std::vector<double> lengths = lengths_of(mesh, table, evidence);

@@ -2,16 +2,10 @@
 
 #include <cstddef>
 
-#include "core/finish/point_grid.h"
+#include "core/finish/cloud_evidence.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace rangezip {
-
-/// What tells false handles that are not thin.
-struct HandleEvidence {
-  const PointGrid* cloud = nullptr;  ///< without it every edge counts as long as it is
-  double pixel_size = 0.0;           ///< h, model units
-};
 
 /// Cuts handles and tunnels that are narrower than what scans resolve: such a handle is made by a
 /// seam that joined two sheets where they come close, not by the object. Every edge gets a word,
@@ -28,6 +22,6 @@ struct HandleEvidence {
 /// @return how many paths were cut; call it again after closing the holes until none is
 /// @pre oriented and manifold
 std::size_t cut_thin_handles(TriangleMesh& mesh, double max_girth,
-                             const HandleEvidence& evidence = {});
+                             const CloudEvidence& evidence = {});
 
 }  // namespace rangezip

@@ -67,6 +67,12 @@ bool is_supported(const PointGrid& cloud, const Vec3& place, double pixel_size,
   return !spacing || glm::length(*nearest - place) <= reach.spacings * *spacing;
 }
 
+std::optional<double> spacing_near(const PointGrid& cloud, const Vec3& place, double pixel_size) {
+  const double farthest = kFarthest * pixel_size;
+  const std::optional<Vec3> nearest = nearest_within(cloud, place, farthest);
+  return nearest ? spacing_at(cloud, *nearest, farthest) : std::nullopt;
+}
+
 std::size_t drop_unsupported_faces(TriangleMesh& mesh, std::span<const Vec3> cloud,
                                    double pixel_size) {
   constexpr std::size_t kGrain = 256;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include "core/finish/point_grid.h"
@@ -28,6 +29,12 @@ inline constexpr SupportReach kCloseSupport{.pixels = 0.75, .spacings = 1.0};
 /// @param pixel_size h, model units
 [[nodiscard]] bool is_supported(const PointGrid& cloud, const Vec3& place, double pixel_size,
                                 const SupportReach& reach);
+
+/// Mean distance of neighbouring points on the surface next to a place, from the 16 around the
+/// nearest point; nothing if that is farther than 6 h, or those reach farther.
+/// @param pixel_size h, model units
+[[nodiscard]] std::optional<double> spacing_near(const PointGrid& cloud, const Vec3& place,
+                                                 double pixel_size);
 
 /// Drops the faces that the cloud does not support: the centroid or the middle of a side has no
 /// point within 0.75 h. Scans join samples over steps of depth of a few pixels; such faces lie

@@ -53,9 +53,10 @@ std::vector<HoleFill> fills_for(const TriangleMesh& mesh, const CornerTable& tab
                                 const FillRequest& request, FillShape shape,
                                 const VerifiedFillOptions& options) {
   if (shape == FillShape::zipped) {
-    return zip_loop(mesh.positions, table, request.loop, options.zip_width);
+    return zip_loop(mesh.positions, table, request.loop, options.zip_width, options.evidence);
   }
-  return {fill_loop(mesh.positions, table, request.loop, shape, options.edge_length)};
+  return {
+      fill_loop(mesh.positions, table, request.loop, shape, options.edge_length, options.evidence)};
 }
 
 class Filler {

@@ -18,6 +18,7 @@ struct VerifiedFillOptions {
   double edge_length = 0.0;  ///< of new edges, model units; see fill_loop
   double zip_width = 0.0;    ///< sides this close get zipped, model units; see zip_loop
   double zipped_from = std::numeric_limits<double>::infinity();  ///< perimeter, model units
+  CloudEvidence evidence;                                        ///< of air, which fills avoid
 };
 
 struct VerifiedFills {

@@ -66,8 +66,9 @@ void drop_unattached(const LoopShape& shape, std::vector<Triangle>& triangles) {
 }  // namespace
 
 std::vector<HoleFill> zip_loop(const std::vector<Vec3>& positions, const CornerTable& table,
-                               const BoundaryLoop& loop, double max_edge) {
-  const LoopShape shape = shape_of(loop, table, positions);
+                               const BoundaryLoop& loop, double max_edge,
+                               const CloudEvidence& evidence) {
+  const LoopShape shape = shape_of(loop, table, positions, evidence);
   std::vector<Triangle> triangles = triangulate_loop(shape);
   std::erase_if(triangles, [&](const Triangle& t) {
     return !is_short(shape, t, max_edge) || !continues_surface(shape, t);

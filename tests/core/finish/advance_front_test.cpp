@@ -147,7 +147,7 @@ TEST_CASE("a front goes around a crease, up the wall behind it", "[finish]") {
   CHECK(facing > 0.95 * area);
 }
 
-TEST_CASE("faces of a front that cross what is in the way are taken back", "[finish]") {
+TEST_CASE("a front does not cross what is in the way", "[finish]") {
   const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
   CAPTURE(seed);
   std::mt19937_64 engine(seed);
