@@ -45,6 +45,8 @@ constexpr int kMinEvidenceSamples = 3;
 /// Gaps that are no wider come from how points happen to lie: of points spread at random one disc
 /// in a million is empty out to 2.1 spacings.
 constexpr SupportReach kGapSupport{1.75, 3.0};
+/// A border may be a pixel beyond the points; of a loop that strays farther the fill tells nothing.
+constexpr SupportReach kLoopSupport{1.25, 2.0};
 constexpr double kShownLoop = 0.9;  // of the vertices of a loop
 
 struct LoopGeometry {
@@ -137,7 +139,7 @@ FillInside look_inside(const LoopGeometry& loop, const HoleFill& fill, const Poi
 bool is_left_out(const LoopGeometry& loop, const std::vector<Vec3>& positions, const HoleFill& fill,
                  const PointGrid& cloud, double pixel_size) {
   const auto is_shown = [&](const Vec3& place) {
-    return is_supported(cloud, place, pixel_size, kFaceSupport);
+    return is_supported(cloud, place, pixel_size, kLoopSupport);
   };
   const auto corner = [&](std::uint32_t v) {
     return v < positions.size() ? positions[v] : fill.new_positions[v - positions.size()];

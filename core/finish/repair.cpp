@@ -38,8 +38,7 @@ void cut_pairs(TriangleMesh& mesh, const Pairs& pairs, FinishReport& report) {
   report.self_intersections_cut += before - mesh.triangles.size();
 }
 
-void clean(TriangleMesh& mesh, const FinishOptions& options, FinishReport& report) {
-  clean_topology(mesh);
+void drop_small(TriangleMesh& mesh, const FinishOptions& options, FinishReport& report) {
   const DroppedComponents dropped = drop_small_components(mesh, options.min_component);
   report.dropped_components += dropped.components;
   report.dropped_faces += dropped.faces;
@@ -140,8 +139,9 @@ void repair(TriangleMesh& mesh, const Pairs& crossing, const PointGrid& cloud,
   // From here on nothing crosses: faces only go, and what comes is checked.
   for (int round = 0; round < options.rounds; ++round) {
     progress.check_stop();
-    clean(mesh, options, report);
+    clean_topology(mesh);
     bridge(mesh, cloud, options, report);
+    drop_small(mesh, options, report);
     JoinedLoops joined = join_loops(mesh, cloud, options.pixel_size);
     report.joined_loops += joined.pairs;
     if (round >= kRoundsToJoin) joined.is_hindered.clear();
