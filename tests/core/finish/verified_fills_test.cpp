@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <limits>
 #include <vector>
 
 #include "core/mesh/mesh_report.h"
@@ -13,6 +14,7 @@ namespace rangezip {
 namespace {
 
 constexpr int kSide = 20;
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// A square sheet of faces of side 1 in z = 0 around the middle, with a round hole.
 TriangleMesh sheet_with_hole(double radius) {
@@ -44,7 +46,7 @@ Filled fill_hole(TriangleMesh mesh, bool partly) {
   REQUIRE(loops.size() == 1);
   Filled filled{mesh, {}};
   filled.fills = fill_verified(filled.mesh, table, {{loops[0], FillShape::smooth}},
-                               {.edge_length = 1.0, .partly = partly});
+                               {.edge_length = 1.0, .partly_from = partly ? 0.0 : kNever});
   return filled;
 }
 
