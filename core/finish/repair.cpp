@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -24,10 +23,9 @@ namespace {
 
 /// Rounds in which loops that are to be joined, but are hindered, are kept open for the next one.
 constexpr int kRoundsToJoin = 3;
-/// Rounds in which as much of long loops (in h) is filled as crosses nothing, and only what hinders
-/// the rest goes; later, and of shorter loops, all faces around what could not be filled go.
+/// Rounds in which as much is filled as crosses nothing, and only what hinders the rest goes; later
+/// all faces around what could not be filled go.
 constexpr int kRoundsPartly = 4;
-constexpr double kPartlyFrom = 30.0;
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
@@ -85,9 +83,9 @@ std::vector<BoundaryLoop> hindered_among(std::vector<BoundaryLoop>& loops, const
   return hindered;
 }
 
-/// @param is_partial whether long fills may be made in part
+/// @param partly see VerifiedFillOptions
 /// @param is_hindered of vertices: their loops are not filled in this round; empty: none
-FillOutcome fill(TriangleMesh& mesh, bool is_zipped, bool is_partial,
+FillOutcome fill(TriangleMesh& mesh, bool is_zipped, bool partly,
                  const std::vector<std::uint8_t>& is_hindered, const PointGrid& cloud,
                  const FinishOptions& options, FinishReport& report) {
   const CornerTable table(mesh.triangles, mesh.positions.size());
@@ -107,8 +105,7 @@ FillOutcome fill(TriangleMesh& mesh, bool is_zipped, bool is_partial,
   }
   const double h = options.pixel_size;
   const VerifiedFillOptions fill_options{
-      h, options.narrow_width * h,
-      is_partial ? kPartlyFrom * h : std::numeric_limits<double>::infinity(),
+      h, options.narrow_width * h, partly,
       choice.is_sampled ? CloudEvidence{&cloud, h} : CloudEvidence{}};
   const VerifiedFills fills = fill_verified(mesh, table, requests, fill_options);
   report.filled_holes += fills.filled_holes;

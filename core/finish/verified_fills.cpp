@@ -89,15 +89,7 @@ class Filler {
     std::iota(all.begin(), all.end(), std::size_t{0});
     fill(all, std::nullopt);
     fill(std::exchange(result_.rejected, {}), FillShape::coarse);
-    std::vector<std::size_t> longer = std::exchange(result_.rejected, {});
-    const auto is_short = [&](std::size_t request) {
-      return perimeter_of(requests_[request].loop, table_, mesh_.positions) <= options_.partly_from;
-    };
-    const auto first_short = std::stable_partition(
-        longer.begin(), longer.end(), [&](std::size_t request) { return !is_short(request); });
-    result_.rejected.assign(first_short, longer.end());
-    longer.erase(first_short, longer.end());
-    fill_partly(longer);
+    if (options_.partly) fill_partly(std::exchange(result_.rejected, {}));
     return std::move(result_);
   }
 

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "core/finish/hole_filling.h"
@@ -18,10 +17,8 @@ struct FillRequest {
 struct VerifiedFillOptions {
   double edge_length = 0.0;  ///< of new edges, model units; see fill_loop
   double zip_width = 0.0;    ///< sides this close get zipped, model units; see zip_loop
-  double partly_from = std::numeric_limits<double>::infinity();  ///< perimeter, model units: of
-                                                                 ///< longer fills that cross
-                                                                 ///< something the rest is made
-  CloudEvidence evidence;                                        ///< of air, which fills avoid
+  bool partly = false;       ///< of fills that cross something, the faces that do not are made
+  CloudEvidence evidence;    ///< of air, which fills avoid
 };
 
 struct VerifiedFills {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <limits>
 #include <vector>
 
 #include "core/mesh/mesh_report.h"
@@ -14,7 +13,6 @@ namespace rangezip {
 namespace {
 
 constexpr int kSide = 20;
-constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// A square sheet of faces of side 1 in z = 0 around the middle, with a round hole.
 TriangleMesh sheet_with_hole(double radius) {
@@ -46,7 +44,7 @@ Filled fill_hole(TriangleMesh mesh, bool partly) {
   REQUIRE(loops.size() == 1);
   Filled filled{mesh, {}};
   filled.fills = fill_verified(filled.mesh, table, {{loops[0], FillShape::smooth}},
-                               {.edge_length = 1.0, .partly_from = partly ? 0.0 : kNever});
+                               {.edge_length = 1.0, .partly = partly});
   return filled;
 }
 
