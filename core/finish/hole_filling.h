@@ -47,14 +47,6 @@ struct HoleFill {
                                              const CornerTable& table, const BoundaryLoop& loop,
                                              double max_edge, const CloudEvidence& evidence = {});
 
-/// Chosen faces of a fill of a loop in pieces that hang together. Together with the mesh they are
-/// manifold, and so is it with any of the pieces; faces for which that is not so are left out.
-/// @param chosen of a fill without new points (FillShape::coarse)
-[[nodiscard]] std::vector<HoleFill> pieces_of_fill(const std::vector<Vec3>& positions,
-                                                   const CornerTable& table,
-                                                   const BoundaryLoop& loop,
-                                                   std::span<const Triangle> chosen);
-
 /// Mean cosine between a fill's faces and the mesh's across the edges of its loops: 1 where it
 /// continues the surface, -1 where it folds back.
 /// @param corners of the loops, as in BoundaryLoop; not empty

@@ -23,9 +23,8 @@ namespace {
 
 /// Rounds in which loops that are to be joined, but are hindered, are kept open for the next one.
 constexpr int kRoundsToJoin = 3;
-/// Rounds in which as much is filled as crosses nothing, and only what hinders the rest goes; later
-/// all faces around what could not be filled go.
-constexpr int kRoundsPartly = 4;
+/// In h: loops up to this that cannot be closed otherwise are zipped.
+constexpr double kLongestZipped = 60.0;
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
@@ -64,9 +63,8 @@ void bridge(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& opt
 }
 
 struct FillOutcome {
-  bool is_done = true;                   ///< nothing to do in another round
-  std::vector<std::uint8_t> unfilled;    ///< flags of vertices of loops that could not be filled
-  std::vector<std::uint32_t> obstacles;  ///< faces that hinder fills
+  bool is_done = true;                 ///< nothing to do in another round
+  std::vector<std::uint8_t> unfilled;  ///< flags of vertices of loops that could not be filled
 };
 
 /// Parts the loops that hindered vertices are in from the others.
@@ -83,11 +81,9 @@ std::vector<BoundaryLoop> hindered_among(std::vector<BoundaryLoop>& loops, const
   return hindered;
 }
 
-/// @param partly see VerifiedFillOptions
 /// @param is_hindered of vertices: their loops are not filled in this round; empty: none
-FillOutcome fill(TriangleMesh& mesh, bool is_zipped, bool partly,
-                 const std::vector<std::uint8_t>& is_hindered, const PointGrid& cloud,
-                 const FinishOptions& options, FinishReport& report) {
+FillOutcome fill(TriangleMesh& mesh, bool is_zipped, const std::vector<std::uint8_t>& is_hindered,
+                 const PointGrid& cloud, const FinishOptions& options, FinishReport& report) {
   const CornerTable table(mesh.triangles, mesh.positions.size());
   std::vector<BoundaryLoop> loops = boundary_loops(table);
   const std::vector<BoundaryLoop> hindered = hindered_among(loops, table, is_hindered);
@@ -105,7 +101,7 @@ FillOutcome fill(TriangleMesh& mesh, bool is_zipped, bool partly,
   }
   const double h = options.pixel_size;
   const VerifiedFillOptions fill_options{
-      h, options.narrow_width * h, partly,
+      h, options.narrow_width * h, kLongestZipped * h,
       choice.is_sampled ? CloudEvidence{&cloud, h} : CloudEvidence{}};
   const VerifiedFills fills = fill_verified(mesh, table, requests, fill_options);
   report.filled_holes += fills.filled_holes;
@@ -123,23 +119,16 @@ FillOutcome fill(TriangleMesh& mesh, bool is_zipped, bool partly,
   const bool any_zipped = std::any_of(requests.begin(), requests.end(), [](const FillRequest& r) {
     return r.shape == FillShape::zipped;
   });
-  outcome.obstacles = fills.obstacles;
-  outcome.is_done = hindered.empty() && fills.rejected.empty() && fills.obstacles.empty() &&
-                    fills.pieces == 0 && !any_zipped;
+  outcome.is_done =
+      hindered.empty() && fills.rejected.empty() && fills.zipped_pieces == 0 && !any_zipped;
   return outcome;
 }
 
-/// Drops the faces that hinder fills, and those around what could not be filled for other reasons.
-void widen(TriangleMesh& mesh, const FillOutcome& outcome) {
-  std::vector<std::uint8_t> goes(mesh.triangles.size(), 0);
-  for (const std::uint32_t face : outcome.obstacles)
-    goes[face] = 1;
-  for (std::size_t f = 0; f < goes.size(); ++f) {
-    const Triangle& t = mesh.triangles[f];
-    if (std::any_of(t.begin(), t.end(), [&](auto v) { return outcome.unfilled[v] != 0; }))
-      goes[f] = 1;
-  }
-  remove_triangles(mesh.triangles, goes);
+/// Drops the faces around marked vertices.
+void widen(TriangleMesh& mesh, const std::vector<std::uint8_t>& vertices) {
+  std::erase_if(mesh.triangles, [&](const Triangle& t) {
+    return std::any_of(t.begin(), t.end(), [&](std::uint32_t v) { return vertices[v] != 0; });
+  });
 }
 
 }  // namespace
@@ -157,10 +146,9 @@ void repair(TriangleMesh& mesh, const Pairs& crossing, const PointGrid& cloud,
     report.joined_loops += joined.pairs;
     if (round >= kRoundsToJoin) joined.is_hindered.clear();
     const bool is_zipped = round > 0;
-    const FillOutcome outcome =
-        fill(mesh, is_zipped, round < kRoundsPartly, joined.is_hindered, cloud, options, report);
+    const FillOutcome outcome = fill(mesh, is_zipped, joined.is_hindered, cloud, options, report);
     if (outcome.is_done || round + 1 == options.rounds) break;
-    widen(mesh, outcome);
+    widen(mesh, outcome.unfilled);
   }
   remove_unused_vertices(mesh);
 }

@@ -11,11 +11,10 @@
 
 namespace rangezip {
 
-/// Rounds of {cut the faces that cross others, bridge cracks between pieces, close holes}. A
-/// bridge that crosses anything is taken back. Of a fill that does, the rest is made, and if there
-/// is none, what is in its way goes; from the fifth round on the fill is taken back and the hole
-/// widened by a ring of faces. After the last round it stays open. So the result is always
-/// oriented, manifold and free of self-intersections. Adds to the counts of `report`.
+/// Rounds of {cut the faces that cross others, bridge cracks between pieces, close holes}. A fill
+/// or bridge that crosses anything is taken back and the hole widened by a ring of faces for the
+/// next round; after the last one it stays open. So the result is always oriented, manifold and
+/// free of self-intersections. Adds to the counts of `report`.
 /// @param crossing the pairs of faces that cross, self_intersections(mesh)
 /// @param cloud evidence for holes (core/finish/hole_choice.h); may be empty
 void repair(TriangleMesh& mesh,

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <iterator>
 #include <numeric>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "core/base/parallel.h"
 #include "core/mesh/self_intersection.h"
@@ -31,21 +29,16 @@ Trial make_trial(const TriangleMesh& mesh, const std::vector<HoleFill>& fills) {
   return trial;
 }
 
-/// Pairs of faces of a trial that cross, of which the second one at least is new.
-std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings_of(const Trial& trial) {
-  std::vector<std::uint32_t> added(trial.fill_of.size());
-  std::iota(added.begin(), added.end(), static_cast<std::uint32_t>(trial.old_faces));
-  return self_intersections(trial.mesh, added);
-}
-
 /// Flags the fills that must go.
 std::vector<std::uint8_t> failing_fills(const TriangleMesh& mesh,
                                         const std::vector<HoleFill>& fills) {
   const Trial trial = make_trial(mesh, fills);
-  const auto pairs = crossings_of(trial);
+  std::vector<std::uint32_t> added(trial.fill_of.size());
+  std::iota(added.begin(), added.end(), static_cast<std::uint32_t>(trial.old_faces));
+  const auto pairs = self_intersections(trial.mesh, added);
   std::vector<std::uint8_t> fails(fills.size(), 0);
   const auto fill_of = [&](std::uint32_t face) { return trial.fill_of[face - trial.old_faces]; };
-  for (const auto& [i, j] : pairs) {
+  for (const auto& [i, j] : pairs) {  // j > i is always a new face
     if (i < trial.old_faces || fill_of(i) == fill_of(j)) fails[fill_of(j)] = 1;
   }
   for (const auto& [i, j] : pairs) {
@@ -53,18 +46,6 @@ std::vector<std::uint8_t> failing_fills(const TriangleMesh& mesh,
     fails[std::max(fill_of(i), fill_of(j))] = 1;
   }
   return fails;
-}
-
-/// Per face of all fills, one after the other, the others that it crosses.
-std::vector<std::vector<std::uint32_t>> crossed_by(const TriangleMesh& mesh,
-                                                   const std::vector<HoleFill>& fills) {
-  const Trial trial = make_trial(mesh, fills);
-  std::vector<std::vector<std::uint32_t>> crossed(trial.fill_of.size());
-  for (const auto& [i, j] : crossings_of(trial)) {
-    crossed[j - trial.old_faces].push_back(i);
-    if (i >= trial.old_faces) crossed[i - trial.old_faces].push_back(j);
-  }
-  return crossed;
 }
 
 /// Fills made for a request: one, or the pieces of a zipped loop.
@@ -89,7 +70,15 @@ class Filler {
     std::iota(all.begin(), all.end(), std::size_t{0});
     fill(all, std::nullopt);
     fill(std::exchange(result_.rejected, {}), FillShape::coarse);
-    if (options_.partly) fill_partly(std::exchange(result_.rejected, {}));
+    const auto is_short = [&](std::size_t request) {
+      return perimeter_of(requests_[request].loop, table_, mesh_.positions) <= options_.zipped_from;
+    };
+    std::vector<std::size_t> again = std::exchange(result_.rejected, {});
+    const auto first_short = std::stable_partition(
+        again.begin(), again.end(), [&](std::size_t request) { return !is_short(request); });
+    result_.rejected.assign(first_short, again.end());
+    again.erase(first_short, again.end());
+    fill(again, FillShape::zipped);
     return std::move(result_);
   }
 
@@ -121,53 +110,13 @@ class Filler {
       append_fill(mesh_, fills[i], base);
       result_.filled_faces += fills[i].triangles.size();
       const bool is_piece = shape_of(request_of[i]) == FillShape::zipped;
-      ++(is_piece ? result_.pieces : result_.filled_holes);
+      ++(is_piece ? result_.zipped_pieces : result_.filled_holes);
       is_served[request_of[i]] = 1;
     }
     for (const std::size_t request : chosen) {
       if (is_served[request] == 0 && requests_[request].shape != FillShape::zipped)
         result_.rejected.push_back(request);
     }
-  }
-
-  /// Appends of coarse fills the faces that cross nothing.
-  void fill_partly(const std::vector<std::size_t>& chosen) {
-    if (chosen.empty()) return;
-    std::vector<HoleFill> fills(chosen.size());
-    parallel_for(chosen.size(), 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k)
-        fills[k] = fill_loop(mesh_.positions, table_, requests_[chosen[k]].loop, FillShape::coarse,
-                             options_.edge_length, options_.evidence);
-    });
-    const auto old_faces = static_cast<std::uint32_t>(mesh_.triangles.size());
-    const std::vector<std::vector<std::uint32_t>> crossed = crossed_by(mesh_, fills);
-    std::size_t face = 0;
-    for (std::size_t k = 0; k < fills.size(); ++k) {
-      std::vector<Triangle> kept;
-      std::vector<std::uint32_t> obstacles;
-      for (const Triangle& t : fills[k].triangles) {
-        const std::vector<std::uint32_t>& others = crossed[face++];
-        if (others.empty()) kept.push_back(t);
-        std::copy_if(others.begin(), others.end(), std::back_inserter(obstacles),
-                     [&](std::uint32_t other) { return other < old_faces; });
-      }
-      append_pieces(chosen[k], kept, obstacles);
-    }
-  }
-
-  /// @param obstacles faces of the mesh that are in the way of the others
-  void append_pieces(std::size_t request, const std::vector<Triangle>& kept,
-                     const std::vector<std::uint32_t>& obstacles) {
-    const std::vector<HoleFill> pieces =
-        pieces_of_fill(mesh_.positions, table_, requests_[request].loop, kept);
-    for (const HoleFill& piece : pieces) {
-      append_fill(mesh_, piece, mesh_.positions.size());
-      result_.filled_faces += piece.triangles.size();
-      ++result_.pieces;
-    }
-    if (!pieces.empty()) return;
-    result_.obstacles.insert(result_.obstacles.end(), obstacles.begin(), obstacles.end());
-    if (obstacles.empty()) result_.rejected.push_back(request);
   }
 
   TriangleMesh& mesh_;

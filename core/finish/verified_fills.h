@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/finish/hole_filling.h"
@@ -17,21 +17,21 @@ struct FillRequest {
 struct VerifiedFillOptions {
   double edge_length = 0.0;  ///< of new edges, model units; see fill_loop
   double zip_width = 0.0;    ///< sides this close get zipped, model units; see zip_loop
-  bool partly = false;       ///< of fills that cross something, the faces that do not are made
-  CloudEvidence evidence;    ///< of air, which fills avoid
+  double zipped_from = std::numeric_limits<double>::infinity();  ///< perimeter, model units
+  CloudEvidence evidence;                                        ///< of air, which fills avoid
 };
 
 struct VerifiedFills {
   std::size_t filled_holes = 0;
   std::size_t filled_faces = 0;
-  std::size_t pieces = 0;                ///< parts of fills
-  std::vector<std::size_t> rejected;     ///< indices of requests to fill that nothing was done for
-  std::vector<std::uint32_t> obstacles;  ///< if partly: faces of the mesh that hinder others
+  std::size_t zipped_pieces = 0;
+  std::vector<std::size_t> rejected;  ///< indices of requests to fill that nothing was done for
 };
 
 /// Fills loops and keeps the fills whose faces neither cross the mesh, nor each other, nor have no
-/// area; where a refined fill fails a coarse one is tried. A mesh without self-intersections stays
-/// without. Of two fills that cross, the earlier one stays; if partly, what of both does not cross.
+/// area; where a refined fill fails a coarse one is tried, and of loops longer than zipped_from
+/// then the part where their sides are close. A mesh without self-intersections stays without. Of
+/// two fills that cross, the earlier one stays.
 /// @pre `table` is that of `mesh` (and no longer after).
 VerifiedFills fill_verified(TriangleMesh& mesh, const CornerTable& table,
                             const std::vector<FillRequest>& requests,

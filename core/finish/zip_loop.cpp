@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <map>
-#include <utility>
 
 #include "core/finish/components.h"
 #include "core/finish/hole_filling.h"
@@ -65,22 +63,6 @@ void drop_unattached(const LoopShape& shape, std::vector<Triangle>& triangles) {
   }
 }
 
-/// Triangles of a loop in pieces that hang together, with vertices of the mesh; without those that
-/// would not be manifold with it.
-std::vector<HoleFill> pieces_of(const LoopShape& shape, std::vector<Triangle> triangles,
-                                const std::vector<std::uint32_t>& vertices) {
-  drop_unattached(shape, triangles);
-  const std::vector<std::uint32_t> piece =
-      components_of(CornerTable(triangles, shape.points.size()));
-  std::vector<HoleFill> fills;
-  for (std::size_t f = 0; f < triangles.size(); ++f) {
-    if (piece[f] >= fills.size()) fills.resize(piece[f] + 1);
-    const Triangle& t = triangles[f];
-    fills[piece[f]].triangles.push_back({vertices[t[0]], vertices[t[1]], vertices[t[2]]});
-  }
-  return fills;
-}
-
 }  // namespace
 
 std::vector<HoleFill> zip_loop(const std::vector<Vec3>& positions, const CornerTable& table,
@@ -91,19 +73,17 @@ std::vector<HoleFill> zip_loop(const std::vector<Vec3>& positions, const CornerT
   std::erase_if(triangles, [&](const Triangle& t) {
     return !is_short(shape, t, max_edge) || !continues_surface(shape, t);
   });
-  return pieces_of(shape, std::move(triangles), vertices_of(loop, table));
-}
-
-std::vector<HoleFill> pieces_of_fill(const std::vector<Vec3>& positions, const CornerTable& table,
-                                     const BoundaryLoop& loop, std::span<const Triangle> chosen) {
+  drop_unattached(shape, triangles);
+  const std::vector<std::uint32_t> piece =
+      components_of(CornerTable(triangles, shape.points.size()));
   const std::vector<std::uint32_t> vertices = vertices_of(loop, table);
-  std::map<std::uint32_t, std::uint32_t> place_of;
-  for (std::uint32_t i = 0; i < vertices.size(); ++i)
-    place_of[vertices[i]] = i;
-  std::vector<Triangle> triangles;
-  for (const auto& [a, b, c] : chosen)
-    triangles.push_back({place_of.at(a), place_of.at(b), place_of.at(c)});
-  return pieces_of(shape_of(loop, table, positions), std::move(triangles), vertices);
+  std::vector<HoleFill> fills;
+  for (std::size_t f = 0; f < triangles.size(); ++f) {
+    if (piece[f] >= fills.size()) fills.resize(piece[f] + 1);
+    const Triangle& t = triangles[f];
+    fills[piece[f]].triangles.push_back({vertices[t[0]], vertices[t[1]], vertices[t[2]]});
+  }
+  return fills;
 }
 
 }  // namespace rangezip
