@@ -110,6 +110,9 @@ class Coarsener {
 
  private:
   [[nodiscard]] const Vec3& at(std::uint32_t vertex) const { return positions_[vertex]; }
+  [[nodiscard]] bool is_kept(std::uint32_t vertex) const {
+    return !options_.is_kept.empty() && options_.is_kept[vertex] != 0;
+  }
 
   /// A third of the face counts at each corner; what stands on a boundary edge as much as a square
   /// over it.
@@ -147,6 +150,7 @@ class Coarsener {
   }
 
   void consider(std::uint32_t a, std::uint32_t b) {
+    if (is_kept(a) || is_kept(b)) return;
     if (a > b) std::swap(a, b);
     const Vec3 middle = 0.5 * (at(a) + at(b)), edge = at(b) - at(a);
     const double length2 = glm::dot(edge, edge);

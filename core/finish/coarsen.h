@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "core/base/progress.h"
 #include "core/mesh/triangle_mesh.h"
@@ -11,6 +13,7 @@ struct CoarsenOptions {
   std::size_t triangles = 0;  ///< as many are left, if collapses can reach it
   double tolerance = 0.0;  ///< model units: only collapses after which the faces stay within this
                            ///< of those before, by their root mean square; 0: any
+  std::vector<std::uint8_t> is_kept;  ///< flags of vertices that stay where they are; empty: none
 };
 
 /// Takes as many triangles away as may be by collapsing edges, always the one that brings the faces

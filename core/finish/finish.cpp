@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/finish/boundary_loops.h"
@@ -54,6 +56,7 @@ constexpr double kMeanOfTolerance = 0.5;
 /// Of coarsened faces: long triangles stay long (20 degrees), and vertices on creases there.
 constexpr double kCoarseSmallAngle = 0.342;
 constexpr double kCoarseHold = 0.001;
+constexpr int kCoarsenRounds = 3;  ///< again, where triangles crossed
 /// Of an edge: averaged over the points around a vertex, less than what a surface bulges that bends
 /// by a tenth of a radian over a triangle.
 constexpr double kHardlyNoise = 0.03;
@@ -159,6 +162,39 @@ bool is_to_coarsen(const TriangleMesh& mesh, const FinishOptions& options) {
          (options.triangles > 0 && mesh.triangles.size() > kFarFewer * options.triangles);
 }
 
+/// Flags the vertices of a mesh in the boxes around faces, of another mesh, that cross.
+void mark_around(const TriangleMesh& mesh, const TriangleMesh& other,
+                 std::span<const std::pair<std::uint32_t, std::uint32_t>> crossing,
+                 std::vector<std::uint8_t>& marked) {
+  for (const auto& [i, j] : crossing) {
+    Box box;
+    for (const std::uint32_t face : {i, j}) {
+      for (const std::uint32_t v : other.triangles[face])
+        box.add(other.positions[v]);
+    }
+    for (std::size_t v = 0; v < marked.size(); ++v) {
+      const Vec3& p = mesh.positions[v];
+      const Vec3 inside = glm::clamp(p, box.lower, box.upper);
+      if (p == inside) marked[v] = 1;
+    }
+  }
+}
+
+/// Coarsens without faces that cross: where they come, the triangles stay as they are.
+std::size_t coarsen_cleanly(TriangleMesh& mesh, CoarsenOptions options, const Progress& progress) {
+  const TriangleMesh fine = mesh;
+  options.is_kept.assign(fine.positions.size(), 0);
+  std::size_t collapsed = coarsen(mesh, options, progress);
+  for (int round = 0; round < kCoarsenRounds; ++round) {
+    const auto crossing = self_intersections(mesh);
+    if (crossing.empty()) break;
+    mark_around(fine, mesh, crossing, options.is_kept);
+    mesh = fine;
+    collapsed = coarsen(mesh, options, progress);
+  }
+  return collapsed;
+}
+
 /// As few triangles as are asked for, where they are nearest to the cloud.
 void coarsen_to_cloud(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
                       FinishReport& report, const Progress& progress) {
@@ -166,14 +202,16 @@ void coarsen_to_cloud(TriangleMesh& mesh, const PointGrid& cloud, const FinishOp
   CoarsenOptions coarse{.triangles = options.triangles};
   if (options.triangles == 0)
     coarse.tolerance = kMeanOfTolerance * options.flat_tolerance * options.pixel_size;
-  report.collapsed_edges += coarsen(mesh, coarse, progress);
+  report.collapsed_edges += coarsen_cleanly(mesh, coarse, progress);
   remove_unused_vertices(mesh);
   const std::size_t after = mesh.triangles.size();
   const double edge =
       options.pixel_size * std::sqrt(static_cast<double>(before) / static_cast<double>(after));
   if (are_points_dense(mesh, cloud, report.noise, edge)) {
+    const std::vector<Vec3> positions = mesh.positions;
     fit_faces(mesh, cloud.points(kMostPoints * after),
               {.reach = edge, .small_angle = kCoarseSmallAngle, .hold = kCoarseHold}, progress);
+    report.untangled_pairs += take_back_crossing(mesh, positions);
   }
   separate(mesh, cloud, options, report, progress);
   mend_slivers(mesh, cloud, options, report, progress);
@@ -237,12 +275,18 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
                                 .rounds = options.relaxations},
                                report, progress);
   const bool is_dense = !is_coarsened && are_points_dense(mesh, cloud, fit.noise, h);
-  if (!is_dense) fit_vertices(mesh, surface, fit, progress);
+  if (!is_dense) {
+    const std::vector<Vec3> positions = mesh.positions;
+    fit_vertices(mesh, surface, fit, progress);
+    report.untangled_pairs += take_back_crossing(mesh, positions);
+  }
   separate(mesh, cloud, options, report, progress);
   if (options.snap_features) snap(mesh, cloud, scale, options, report, progress);
   mend_slivers(mesh, cloud, options, report, progress);
   if (is_dense) {
+    const std::vector<Vec3> positions = mesh.positions;
     fit_faces(mesh, cloud.points(kMostPoints * mesh.triangles.size()), {.reach = h}, progress);
+    report.untangled_pairs += take_back_crossing(mesh, positions);
     separate(mesh, cloud, options, report, progress);
   }
   extend(mesh, cloud, options, report, progress);

@@ -16,20 +16,26 @@ constexpr int kSteps = 2;         // of smoothing, a round
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-/// Flags of the inner vertices of the faces that cross others, and of those around.
-std::vector<std::uint8_t> tangled_vertices(const CornerTable& table, const Pairs& pairs,
-                                           bool with_neighbors) {
-  std::vector<std::uint8_t> tangled(table.vertex_count(), 0);
+/// Flags the vertices of the faces that cross others, and of those around.
+void mark_vertices(const CornerTable& table, const Pairs& pairs, bool with_neighbors,
+                   std::vector<std::uint8_t>& marked) {
   const auto mark = [&](std::uint32_t face) {
     for (const std::uint32_t v : table.triangle(face)) {
-      tangled[v] = 1;
-      if (with_neighbors) table.for_each_neighbor(v, [&](std::uint32_t w) { tangled[w] = 1; });
+      marked[v] = 1;
+      if (with_neighbors) table.for_each_neighbor(v, [&](std::uint32_t w) { marked[w] = 1; });
     }
   };
   for (const auto& [i, j] : pairs) {
     mark(i);
     mark(j);
   }
+}
+
+/// Of these the inner ones.
+std::vector<std::uint8_t> tangled_vertices(const CornerTable& table, const Pairs& pairs,
+                                           bool with_neighbors) {
+  std::vector<std::uint8_t> tangled(table.vertex_count(), 0);
+  mark_vertices(table, pairs, with_neighbors, tangled);
   for (std::uint32_t v = 0; v < tangled.size(); ++v) {
     if (table.is_boundary(v)) tangled[v] = 0;
   }
@@ -70,6 +76,22 @@ std::vector<std::uint32_t> changed_faces(const TriangleMesh& mesh,
 }
 
 }  // namespace
+
+std::size_t take_back_crossing(TriangleMesh& mesh, const std::vector<Vec3>& before) {
+  Pairs pairs = self_intersections(mesh);
+  const std::size_t crossed = pairs.size();
+  if (pairs.empty()) return 0;
+  const CornerTable table(mesh.triangles, mesh.positions.size());
+  std::vector<std::uint8_t> taken_back(mesh.positions.size(), 0);
+  for (int round = 0; round < kRounds && !pairs.empty(); ++round) {
+    mark_vertices(table, pairs, round > 0, taken_back);
+    for (std::size_t v = 0; v < taken_back.size(); ++v) {
+      if (taken_back[v] != 0) mesh.positions[v] = before[v];
+    }
+    pairs = self_intersections(mesh, changed_faces(mesh, taken_back, pairs));
+  }
+  return crossed;
+}
 
 UntangleReport untangle(TriangleMesh& mesh) {
   const CornerTable table(mesh.triangles, mesh.positions.size());

@@ -14,6 +14,13 @@ struct UntangleReport {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> left;  ///< pairs that still cross
 };
 
+/// Takes vertices back to where they were `before`, of faces that cross others now: at first those
+/// of these faces, in later rounds those around them, too. Nothing crosses in the end if nothing
+/// did before, unless six rounds do not do. Cost: self_intersections() a round.
+/// @param before a position for each vertex
+/// @return how many pairs of faces crossed at first
+std::size_t take_back_crossing(TriangleMesh& mesh, const std::vector<Vec3>& before);
+
 /// Pulls faces apart that cross others by smoothing where they are: the inner vertices of crossing
 /// faces move to the middle of their neighbours, from the third round on with those around them.
 /// Most folds that moving vertices by themselves has made come apart so, without a hole to fill.

@@ -97,6 +97,26 @@ TEST_CASE("with a tolerance the faces stay as near as it says, and there are few
   REQUIRE(testing::smallest_angle(mesh) > 14.9 * kDegree);
 }
 
+TEST_CASE("vertices that are to be kept stay, and the faces between them") {
+  TriangleMesh mesh = testing::sphere(16);
+  const TriangleMesh fine = mesh;
+  const auto is_kept = [](const Vec3& p) { return p.z > 0.5; };
+  CoarsenOptions options{.triangles = 100};
+  for (const Vec3& p : mesh.positions)
+    options.is_kept.push_back(is_kept(p) ? 1 : 0);
+  coarsen(mesh, options);
+  const auto between_kept = [&](const TriangleMesh& of) {
+    return std::count_if(of.triangles.begin(), of.triangles.end(), [&](const Triangle& t) {
+      return std::all_of(t.begin(), t.end(), [&](auto v) { return options.is_kept[v] != 0; });
+    });
+  };
+  CHECK(between_kept(mesh) == between_kept(fine));
+  for (std::size_t v = 0; v < fine.positions.size(); ++v) {
+    if (options.is_kept[v] != 0) CHECK(mesh.positions[v] == fine.positions[v]);
+  }
+  CHECK(mesh.triangles.size() < fine.triangles.size() / 2);
+}
+
 TEST_CASE("coarsening ends where no edge is left that may go") {
   TriangleMesh mesh = testing::cube(4);
   const MeshReport report = coarsened(mesh, {.triangles = 1});
