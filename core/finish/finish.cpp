@@ -275,11 +275,7 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
                                 .rounds = options.relaxations},
                                report, progress);
   const bool is_dense = !is_coarsened && are_points_dense(mesh, cloud, fit.noise, h);
-  if (!is_dense) {
-    const std::vector<Vec3> positions = mesh.positions;
-    fit_vertices(mesh, surface, fit, progress);
-    report.untangled_pairs += take_back_crossing(mesh, positions);
-  }
+  if (!is_dense) fit_vertices(mesh, surface, fit, progress);
   separate(mesh, cloud, options, report, progress);
   if (options.snap_features) snap(mesh, cloud, scale, options, report, progress);
   mend_slivers(mesh, cloud, options, report, progress);
