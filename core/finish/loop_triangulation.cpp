@@ -1,7 +1,6 @@
 #include "core/finish/loop_triangulation.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <optional>
 #include <tuple>
@@ -67,17 +66,26 @@ double bend(const Vec3& a, const Vec3& b) {
   return glm::dot(b, b) > 0.0 ? 1.0 - glm::dot(a, b) : 0.0;
 }
 
-/// Whether the middle of a long side, or that of the triangle if it has one, is in the air.
+bool is_long(const LoopShape& shape, const Vec3& p, const Vec3& q) {
+  return glm::length(q - p) > shape.long_side;
+}
+
+/// Whether a side, if it is long, has its middle in the air.
+bool is_side_in_air(const LoopShape& shape, const Vec3& p, const Vec3& q) {
+  return is_long(shape, p, q) && shape.is_in_air(0.5 * (p + q));
+}
+
+/// Whether the middle of a triangle, if a side is long, is in the air.
+bool has_air_inside(const LoopShape& shape, const Vec3& a, const Vec3& b, const Vec3& c) {
+  return (is_long(shape, a, b) || is_long(shape, b, c) || is_long(shape, c, a)) &&
+         shape.is_in_air((a + b + c) / 3.0);
+}
+
+/// Whether that, or the middle of a side is.
 bool leads_through_air(const LoopShape& shape, const Triangle& t) {
-  const std::array<Vec3, 3> corners{shape.points[t[0]], shape.points[t[1]], shape.points[t[2]]};
-  bool is_long = false;
-  for (std::size_t c = 0; c < 3; ++c) {
-    const Vec3 &p = corners[c], &q = corners[(c + 1) % 3];
-    if (glm::length(q - p) <= shape.long_side) continue;
-    is_long = true;
-    if (shape.is_in_air(0.5 * (p + q))) return true;
-  }
-  return is_long && shape.is_in_air((corners[0] + corners[1] + corners[2]) / 3.0);
+  const Vec3 &a = shape.points[t[0]], &b = shape.points[t[1]], &c = shape.points[t[2]];
+  return is_side_in_air(shape, a, b) || is_side_in_air(shape, b, c) ||
+         is_side_in_air(shape, c, a) || has_air_inside(shape, a, b, c);
 }
 
 /// The table of best triangulations of all sub-polygons i..k of a piece.
@@ -90,7 +98,9 @@ class Triangulator {
         size_(piece.points.size()),
         weights_(size_ * size_, kImpossible),
         normals_(size_ * size_, Vec3{0.0}),
-        middles_(size_ * size_, 0) {}
+        middles_(size_ * size_, 0) {
+    if (avoids_air) find_air();
+  }
 
   /// The best triangulation; empty if there is none.
   std::vector<Triangle> run() {
@@ -133,12 +143,23 @@ class Triangulator {
         weight.angle = kFold;
       }
       if (!(weight < weights_[here])) continue;
-      if (avoids_air_ &&
-          leads_through_air(shape_, {piece_.points[i], piece_.points[m], piece_.points[k]})) {
-        weight.air += length;
-      }
+      if (avoids_air_ && leads_through_air(i, m, k)) weight.air += length;
       if (weight < weights_[here]) set(here, weight, normal, m);
     }
+  }
+
+  /// Each side is asked about once, of which there are far fewer than triangles.
+  void find_air() {
+    in_air_.assign(size_ * size_, 0);
+    for (std::size_t i = 0; i < size_; ++i) {
+      for (std::size_t k = i + 1; k < size_; ++k)
+        in_air_[slot(i, k)] = is_side_in_air(shape_, point(i), point(k)) ? 1 : 0;
+    }
+  }
+
+  [[nodiscard]] bool leads_through_air(std::size_t i, std::size_t m, std::size_t k) const {
+    return in_air_[slot(i, m)] != 0 || in_air_[slot(m, k)] != 0 || in_air_[slot(i, k)] != 0 ||
+           has_air_inside(shape_, point(i), point(m), point(k));
   }
 
   /// Whether nothing that is added to a weight can make it the better one.
@@ -174,6 +195,7 @@ class Triangulator {
   std::vector<Weight> weights_;
   std::vector<Vec3> normals_;
   std::vector<std::uint32_t> middles_;
+  std::vector<std::uint8_t> in_air_;  // flags of sides; empty: of no interest
 };
 
 struct Chord {
