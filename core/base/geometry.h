@@ -52,6 +52,12 @@ struct Box {
   friend bool operator==(const Box&, const Box&) = default;
 };
 
+/// Whether two boxes have a point in common.
+[[nodiscard]] inline bool boxes_meet(const Box& a, const Box& b) noexcept {
+  return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y &&
+         b.lower.y <= a.upper.y && a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
+}
+
 /// The half-space dot(normal, p) + offset >= 0; what lies outside is cut away.
 struct Plane {
   Vec3 normal{0.0, 0.0, 1.0};

@@ -4,20 +4,6 @@
 #include "core/mesh/triangle_overlap.h"
 
 namespace rangezip {
-namespace {
-
-Box box_of(const TriangleMesh& mesh, const Triangle& face) {
-  const Vec3 &a = mesh.positions[face[0]], &b = mesh.positions[face[1]],
-             &c = mesh.positions[face[2]];
-  return {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))};
-}
-
-bool boxes_meet(const Box& a, const Box& b) {
-  return glm::all(glm::lessThanEqual(a.lower, b.upper)) &&
-         glm::all(glm::lessThanEqual(b.lower, a.upper));
-}
-
-}  // namespace
 
 std::size_t CrossingGuard::CubeHash::operator()(const Cube& cube) const noexcept {
   std::uint64_t bits = 0;

@@ -10,11 +10,10 @@
 namespace rangezip {
 
 struct HoleChoiceOptions {
-  double pixel_size = 0.0;  ///< h, model units
-  double max_hole_perimeter =
-      0.0;                    ///< in h, of holes to close though the cloud has no points there
-  double narrow_width = 3.0;  ///< in h, of cracks
-  bool is_sampled = false;    ///< the cloud has points wherever the surface was seen
+  double pixel_size = 0.0;          ///< h, model units
+  double max_hole_perimeter = 0.0;  ///< in h, of holes to close although no points lie there
+  double narrow_width = 3.0;        ///< in h, of cracks
+  bool is_sampled = false;          ///< the cloud has points wherever the surface was seen
 };
 
 /// Whether a boundary loop is a gap in what was scanned, and then how to close it, or the border of
@@ -26,9 +25,8 @@ struct HoleChoiceOptions {
 ///   end of a tube, stays;
 /// - a crack, nowhere wider than narrow_width, is closed whatever its length;
 /// - others are first zipped where their sides are close, since cracks often open into a border;
-/// - once zipped, one with a disc so wide and without points that the surface was not sampled
-/// there,
-///   since the object has a hole or no scan saw it, stays if longer than max_hole_perimeter;
+/// - once zipped, one stays that is longer than max_hole_perimeter and has a disc so wide and
+///   without points that the surface was not sampled there: a hole, or what no scan saw;
 /// - others are closed, unless they are long (60 h, max_hole_perimeter) and wide.
 /// Loops of more than 6000 edges always stay.
 /// @param is_zipped whether loops have been zipped before

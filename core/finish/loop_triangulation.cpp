@@ -220,8 +220,7 @@ std::optional<Chord> dividing_chord(const LoopShape& shape, const Piece& piece) 
       const Vec3 d = shape.points[piece.points[k]] - a;
       double length = glm::dot(d, d);
       if (length >= best_length || shape.is_forbidden(piece.points[i], piece.points[k])) continue;
-      if (shape.is_in_air && length > shape.long_side * shape.long_side &&
-          shape.is_in_air(a + 0.5 * d)) {
+      if (shape.is_in_air && is_side_in_air(shape, a, shape.points[piece.points[k]])) {
         length *= kAirChord * kAirChord;
         if (length >= best_length) continue;
       }

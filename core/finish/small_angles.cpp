@@ -48,13 +48,6 @@ bool has_flag(const std::vector<std::uint8_t>& flags, const Triangle& t) {
   return (flags[t[0]] | flags[t[1]] | flags[t[2]]) != 0;
 }
 
-Box box_of(const TriangleMesh& mesh, const Triangle& t) {
-  Box box;
-  for (const std::uint32_t v : t)
-    box.add(mesh.positions[v]);
-  return box;
-}
-
 Box widened(Box box, double margin) {
   box.lower -= Vec3(margin);
   box.upper += Vec3(margin);

@@ -106,18 +106,6 @@ class CellGrid {
   std::array<int, 3> dims_{1, 1, 1};
 };
 
-bool boxes_meet(const Box& a, const Box& b) {
-  return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y &&
-         b.lower.y <= a.upper.y && a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
-}
-
-Box box_of(const TriangleMesh& mesh, const Triangle& triangle) {
-  Box box;
-  for (const std::uint32_t corner : triangle)
-    box.add(mesh.positions[corner]);
-  return box;
-}
-
 /// Box, state and mean side of the triangles that take part, by their rank among these.
 class Triangles {
  public:

@@ -42,6 +42,14 @@ struct TriangleMesh {
 /// Box around all positions.
 [[nodiscard]] Box bounds_of(const TriangleMesh& mesh);
 
+/// The smallest box around a triangle of a mesh.
+[[nodiscard]] inline Box box_of(const TriangleMesh& mesh, const Triangle& triangle) noexcept {
+  Box box;
+  for (const std::uint32_t corner : triangle)
+    box.add(mesh.positions[corner]);
+  return box;
+}
+
 /// Longest side of a triangle, model units: the paper's quality of an old triangle
 /// [Kobbelt, Botsch 2000, 4.3].
 [[nodiscard]] double longest_side(const TriangleMesh& mesh, const Triangle& triangle);
