@@ -118,7 +118,7 @@ void record_sources(const Scene& scene, Scan& scan) {
   }
 }
 
-/// The faces of a decimated patch are larger than what they stand for.
+/// The faces of a decimated patch will be larger than what they stand for.
 void record_sampling(Scan& scan, const ScanRequest& request) {
   const Grid<double> quality =
       sample_quality(scan.image, scan.slopes, scan.active, request.smooth_quality,
@@ -150,11 +150,13 @@ Scan scan(Rasterizer& rasterizer, const Scene& scene, const TriangleMesh& mesh,
   progress.at("scan", 0.8);
   result.active = choose_active_samples(result, mesh, request, result.report);
   result.patch = triangulate(result.image, result.active, request.triangulate);
+  record_sources(scene, result);
   if (request.decimate) {
+    record_sampling(result, request);
+    result.decimate = request.decimate;
+    result.whole_patch = result.patch;
     result.patch = decimate(result.image, std::move(result.patch), *request.decimate);
   }
-  record_sources(scene, result);
-  if (request.decimate) record_sampling(result, request);
 
   result.report.samples = count_of(sample_mask(result.image));
   result.report.matched = static_cast<std::size_t>(std::count_if(

@@ -69,6 +69,8 @@ struct Scan {
   Correspondence correspondence;  ///< with the mesh so far
   Mask active;                    ///< after all masks
   Patch patch;
+  std::optional<DecimateOptions> decimate;  ///< what made the patch of the whole one
+  Patch whole_patch;                        ///< before that; empty if it is not decimated
   ScanReport report;
 };
 

@@ -9,6 +9,7 @@
 #include "core/base/parallel.h"
 #include "core/mesh/edge_map.h"
 #include "core/mesh/self_intersection.h"
+#include "core/patch/decimate.h"
 #include "core/stitch/clean_up.h"
 #include "core/stitch/clear_and_fill.h"
 #include "core/stitch/collapse_seam.h"
@@ -242,6 +243,7 @@ struct Stitched {
 std::optional<Stitched> stitch_into(TriangleMesh& mesh, const MeshPart& part, const Scan& scan,
                                     const StitchOptions& options) {
   const ImagePlane image = project_to_image(part.mesh.positions, scan.image.view());
+  Patch whole = scan.decimate ? scan.whole_patch : scan.patch;
   Patch patch = scan.patch;
   int radius = kFirstWithdrawal;
   for (int round = 1; !patch.mesh.empty(); ++round) {
@@ -262,7 +264,8 @@ std::optional<Stitched> stitch_into(TriangleMesh& mesh, const MeshPart& part, co
       return Stitched{report, record_of_whole(attempt.record(), part, patch.pixels, scan.patch)};
     }
     if (round > kWithdrawals) break;
-    patch = withdraw_locally(scan.image, patch, lost, radius);
+    whole = withdraw_locally(scan.image, whole, lost, radius);
+    patch = scan.decimate ? decimate(scan.image, whole, *scan.decimate) : whole;
     if (round >= kEqualWithdrawals) radius *= 2;
   }
   StitchReport report;

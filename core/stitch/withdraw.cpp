@@ -78,7 +78,7 @@ Patch withdraw_near(const RangeImage& image, const Patch& patch, std::span<const
   Patch rest = patch_from_cells(image, std::move(cells));
   if (patch.mesh.sources.empty()) return rest;
   for (const std::uint32_t v : numbers_in(patch, rest.pixels))
-    rest.mesh.sources.push_back(v == kNotInPatch ? VertexSource{} : patch.mesh.sources[v]);
+    rest.mesh.sources.push_back(patch.mesh.sources[v]);
   return rest;
 }
 

@@ -9,10 +9,10 @@
 namespace rangezip {
 
 /// The patch without the grid triangles that have a corner within `radius` pixels (in both axes) of
-/// one of the places. Vertices that are left keep their order and their source; of a decimated
-/// patch the rest has the full resolution again, so that its new boundary has, and vertices that it
-/// did not have are of unknown source. An unchanged patch is returned as it is. O(pixels).
+/// one of the places. Vertices that are left keep their order and their source. An unchanged patch
+/// is returned as it is. O(pixels).
 /// @param image that the patch was made of
+/// @param patch not decimated: its new boundary has the full resolution, as the stitch wants it
 /// @pre radius >= 0
 [[nodiscard]] Patch withdraw_near(const RangeImage& image, const Patch& patch,
                                   std::span<const Pixel> places, int radius);
