@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <ctime>
+#include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -59,7 +62,11 @@ constexpr double kPlanShare = 0.02;
 constexpr double kScanShare = 0.15;
 constexpr double kFillShare = 0.40;
 constexpr double kFinishShare = 0.50;
+constexpr double kShareOfRest = 0.1;
 constexpr double kCheckShare = 0.95;
+
+constexpr double kCountTolerance = 0.025;  ///< of the triangles asked for
+constexpr int kSizeRounds = 8;             ///< with other pixels, until there are as many
 
 /// Wall and processor time of consecutive stages.
 class StageClock {
@@ -108,15 +115,28 @@ void check_options(const Scene& scene, const ReconstructOptions& options) {
   }
 }
 
+/// A part of the caller's progress bar, by the same stages.
+Progress round_of(const Progress& whole, double begin, double end) {
+  Progress part{.stop = whole.stop};
+  if (whole.report) {
+    part.report = [report = whole.report, begin, end](std::string_view stage, double share) {
+      report(stage, begin + share * (end - begin));
+    };
+  }
+  return part;
+}
+
 /// One automatic run. Every change to the mesh is a command of a Session, so the run can be
 /// replayed; this class only decides which commands.
 class Run {
  public:
-  Run(const Scene& scene, Rasterizer& rasterizer, const ReconstructOptions& options,
+  /// @param excess see choose_resolution()
+  Run(const Scene& scene, Rasterizer& rasterizer, const ReconstructOptions& options, double excess,
       const Progress& progress)
       : scene_(scene),
         rasterizer_(rasterizer),
         options_(options),
+        excess_(excess),
         progress_(progress),
         clock_(result_.report.stages),
         session_(scene, SessionOptions{.history_bytes = 0}) {}
@@ -156,7 +176,7 @@ class Run {
     }
     const bool is_finished_whole = options_.finish == FinishMethod::full;
     const Resolution resolution = choose_resolution(scene_, samples_, options_.pixel_size,
-                                                    options_.triangles, is_finished_whole);
+                                                    options_.triangles, is_finished_whole, excess_);
     recipe_ = {.method = options_.method,
                .bounds = resolution.bounds,
                .pixel_size = resolution.pixel_size,
@@ -251,7 +271,7 @@ class Run {
   /// Faces across gaps hide what lies in them, make handles, and join what is apart.
   void drop_unsupported() {
     apply(DropUnsupported{.pixel_size = recipe_.pixel_size},
-          part_of(progress_, "fill views", kFillShare, kFillShare));
+          part_of(progress_, "fill views", fill_share_, fill_share_));
   }
 
   void scan_fill_views() {
@@ -287,7 +307,7 @@ class Run {
       if (options_.views) plan_options.max_views = *options_.views;
       const ViewPlan plan =
           plan_views_of(rasterizer_, samples_, dense.points, recipe.pixel_size, plan_options,
-                        part_of(progress_, "fill views", kFillShare, kFillShare));
+                        part_of(progress_, "fill views", fill_share_, fill_share_));
       scan_from(plan.directions, recipe, planned_scan);
       const std::vector<Vec3> targets =
           left_out_points(dense.points, *session_.mesh(), recipe.pixel_size);
@@ -315,7 +335,7 @@ class Run {
 
   /// Takes the mesh off these places. @return how they are scanned again
   ScanRecipe erase_for_rescan(const std::vector<Sphere>& places, double pixel_size) {
-    apply(ErasePlaces{places}, part_of(progress_, "fill views", kFillShare, kFillShare));
+    apply(ErasePlaces{places}, part_of(progress_, "fill views", fill_share_, fill_share_));
     ScanRecipe recipe = recipe_;
     recipe.pixel_size = pixel_size;
     recipe.places = places;
@@ -335,7 +355,7 @@ class Run {
                                   .min_gain = min_new / static_cast<double>(targets.size()),
                                   .views_for_quality = 0};
     return plan_views_of(rasterizer_, samples_, targets, recipe.pixel_size, options,
-                         part_of(progress_, "fill views", kFillShare, kFillShare))
+                         part_of(progress_, "fill views", fill_share_, fill_share_))
         .directions;
   }
 
@@ -346,8 +366,10 @@ class Run {
     for (const Vec3& direction : directions) {
       if (recipe_.one_sided && !(glm::dot(direction, result_.report.views[0]) > 0.0)) continue;
       const auto view = static_cast<std::uint32_t>(result_.report.views.size());
-      apply(make_scan(recipe, direction, view),
-            part_of(progress_, "fill views", kFillShare, kFinishShare));
+      // How many more there will be is not known: each takes a part of what is left.
+      const double end = fill_share_ + kShareOfRest * (kFinishShare - fill_share_);
+      apply(make_scan(recipe, direction, view), part_of(progress_, "fill views", fill_share_, end));
+      fill_share_ = end;
       result_.report.views.push_back(direction);
     }
   }
@@ -381,23 +403,77 @@ class Run {
                        result_.mesh = *mesh;
                      });
     clock_.finish("check");
-    progress_.at("done", 1.0);
   }
 
   const Scene& scene_;
   Rasterizer& rasterizer_;
   const ReconstructOptions& options_;
+  double excess_;
   const Progress& progress_;
   ReconstructResult result_;
   StageClock clock_;
   Session session_;
   ScanRecipe recipe_;
-  double noise_ = 0.0;            ///< of the points, model units
-  bool is_of_cloud_ = false;      ///< what the pixels of the planned scans are
-  bool is_clean_ = true;          ///< enough to scan papered holes again
-  bool has_narrow_gaps_ = false;  ///< that the planned views did not reach
-  std::vector<Vec3> samples_;     ///< points, then area samples of polygons
+  double noise_ = 0.0;              ///< of the points, model units
+  bool is_of_cloud_ = false;        ///< what the pixels of the planned scans are
+  bool is_clean_ = true;            ///< enough to scan papered holes again
+  double fill_share_ = kFillShare;  ///< of the progress, so far
+  bool has_narrow_gaps_ = false;    ///< that the planned views did not reach
+  std::vector<Vec3> samples_;       ///< points, then area samples of polygons
 };
+
+/// Looks for the excess (see choose_resolution()) that pixels have to be chosen for.
+class ExcessSearch {
+ public:
+  [[nodiscard]] double excess() const { return excess_; }
+
+  /// @param ratio of the triangles that there are to those that are wanted, positive
+  void go_on_from(double ratio) {
+    (ratio > 1.0 ? too_many_ : too_few_) = excess_;
+    excess_ *= ratio;
+    if (!too_many_ || !too_few_) return;
+    const auto [low, high] = std::minmax(*too_many_, *too_few_);
+    if (!(excess_ > low && excess_ < high)) excess_ = std::sqrt(low * high);
+  }
+
+ private:
+  double excess_ = 1.0;
+  std::optional<double> too_many_;  ///< the latest that gave more than are wanted
+  std::optional<double> too_few_;   ///< the latest that gave fewer
+};
+
+/// How many triangles a mesh of pixels has depends on how the surface lies to the views that win,
+/// and is known only afterwards: while it is off, it is tried again with other pixels. @return the
+/// nearest of what was tried
+ReconstructResult run_until_count_fits(const Scene& scene, Rasterizer& rasterizer,
+                                       const ReconstructOptions& options,
+                                       const Progress& progress) {
+  ReconstructResult nearest;
+  double least_off = std::numeric_limits<double>::infinity();
+  std::vector<StageTime> stages;
+  ExcessSearch search;
+  double pixel_size = 0.0;  // of the round before
+  double begin = 0.0;
+  for (int round = 1; round <= kSizeRounds && least_off > kCountTolerance; ++round) {
+    const double end = round == kSizeRounds ? 1.0 : 0.5 * (1.0 + begin);
+    const Progress part = round_of(progress, begin, end);
+    begin = end;
+    ReconstructResult result = Run(scene, rasterizer, options, search.excess(), part).result();
+    stages.insert(stages.end(), result.report.stages.begin(), result.report.stages.end());
+    const double ratio =
+        static_cast<double>(result.mesh.triangles.size()) / static_cast<double>(*options.triangles);
+    const bool is_last = ratio == 0.0 || result.report.pixel_size == pixel_size;
+    pixel_size = result.report.pixel_size;
+    if (std::abs(ratio - 1.0) < least_off) {
+      least_off = std::abs(ratio - 1.0);
+      nearest = std::move(result);
+    }
+    if (is_last) break;
+    search.go_on_from(ratio);
+  }
+  nearest.report.stages = std::move(stages);
+  return nearest;
+}
 
 }  // namespace
 
@@ -405,8 +481,12 @@ ReconstructResult reconstruct(const Scene& scene, Rasterizer& rasterizer,
                               const ReconstructOptions& options, const Progress& progress) {
   check_options(scene, options);
   ReconstructResult result;
-  run_with_threads(options.threads,
-                   [&] { result = Run(scene, rasterizer, options, progress).result(); });
+  const bool is_sized_by_pixels = options.triangles && options.finish != FinishMethod::full;
+  run_with_threads(options.threads, [&] {
+    result = is_sized_by_pixels ? run_until_count_fits(scene, rasterizer, options, progress)
+                                : Run(scene, rasterizer, options, 1.0, progress).result();
+  });
+  progress.at("done", 1.0);
   return result;
 }
 

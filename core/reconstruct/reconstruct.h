@@ -24,8 +24,8 @@ enum class ReconstructMethod {
 struct ReconstructOptions {
   ReconstructMethod method = ReconstructMethod::automatic;
   std::optional<double> pixel_size;      ///< model units; absent: from the point spacing
-  std::optional<std::size_t> triangles;  ///< target count, met within a few percent by the full
-                                         ///< finish; without it only roughly
+  std::optional<std::size_t> triangles;  ///< target count, met within a few percent: by the full
+                                         ///< finish, else by repeating the run with other pixels
   std::optional<int> views;              ///< planned views; absent: until the cloud is covered
   std::optional<double> decimate;        ///< in pixel sides: triangles grow where they stay within
                                          ///< this of the surface, in the full finish, else in scans
@@ -49,7 +49,7 @@ struct ReconstructReport {
   std::vector<std::size_t> view_commands;  ///< per view: where among the commands its scan is
   std::optional<std::size_t> finish_command;
   std::vector<CommandReport> commands;
-  std::vector<StageTime> stages;
+  std::vector<StageTime> stages;  ///< of a repeated run one after the other
   CoverageReport coverage;
   MeshReport mesh;
   std::size_t self_intersections = 0;  ///< pairs

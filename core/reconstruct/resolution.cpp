@@ -61,7 +61,7 @@ double finest_pixel_size(const Box& bounds) {
 /// @param finest_drawn the finest pixel that the rasterizer can draw
 double demanded_pixel_size(const Scene& scene, std::span<const Vec3> samples,
                            const std::optional<Spacing>& spacing,
-                           std::optional<std::size_t> triangles, bool is_remeshed,
+                           std::optional<std::size_t> triangles, bool is_remeshed, double excess,
                            double finest_drawn) {
   const double area = spacing
                           ? static_cast<double>(samples.size()) * spacing->median * spacing->median
@@ -72,8 +72,8 @@ double demanded_pixel_size(const Scene& scene, std::span<const Vec3> samples,
   check_triangles(*triangles, area,
                   std::max(finest_drawn, spacing ? kFinestOfSpacing * spacing->median : 0.0));
   const bool is_scanned = spacing && !is_remeshed;
-  const double demanded =
-      pixel_size_for(area, *triangles, is_scanned ? kScannedPerPixelArea : kTrianglesPerPixelArea);
+  const double per_pixel_area = is_scanned ? kScannedPerPixelArea : kTrianglesPerPixelArea;
+  const double demanded = pixel_size_for(area, *triangles, excess * per_pixel_area);
   const double finest = is_remeshed ? demanded / kFinerThanMesh : demanded;
   const double suitable = std::min(demanded, std::max(own, finest));
   // Finer pixels would show nothing where points are sparse, and the median tells no area then.
@@ -84,7 +84,7 @@ double demanded_pixel_size(const Scene& scene, std::span<const Vec3> samples,
 
 Resolution choose_resolution(const Scene& scene, std::span<const Vec3> samples,
                              std::optional<double> pixel_size, std::optional<std::size_t> triangles,
-                             bool is_remeshed) {
+                             bool is_remeshed, double excess) {
   if (pixel_size && (!(*pixel_size > 0.0) || !std::isfinite(*pixel_size))) {
     throw InvalidArgument("reconstruct: pixel_size must be positive and finite, got " +
                           std::to_string(*pixel_size));
@@ -102,8 +102,8 @@ Resolution choose_resolution(const Scene& scene, std::span<const Vec3> samples,
     chosen.pixel_size = *pixel_size;
   } else {
     const double finest = finest_pixel_size(chosen.bounds);
-    chosen.pixel_size = std::max(
-        finest, demanded_pixel_size(scene, samples, spacing, triangles, is_remeshed, finest));
+    chosen.pixel_size = std::max(finest, demanded_pixel_size(scene, samples, spacing, triangles,
+                                                             is_remeshed, excess, finest));
     chosen.is_of_cloud =
         spacing && chosen.pixel_size <= std::max(finest, pixel_size_from_spacing(*spacing));
   }

@@ -26,10 +26,13 @@ struct Resolution {
 /// triangles demand. Of an uneven cloud it is never finer than its own. Never so fine that an image
 /// outgrows the rasterizer.
 /// @param samples the points of the scene, in its order, then area samples of its polygons
+/// @param excess how many times as many triangles as `triangles` are expected to come of the pixels
+///     that this chooses; 1: unknown
 /// @throws InvalidArgument for a pixel side or a target that is not positive, and for a target of
 ///     more triangles than pixels of a quarter of the point spacing give, or the finest images.
 [[nodiscard]] Resolution choose_resolution(const Scene& scene, std::span<const Vec3> samples,
                                            std::optional<double> pixel_size,
-                                           std::optional<std::size_t> triangles, bool is_remeshed);
+                                           std::optional<std::size_t> triangles, bool is_remeshed,
+                                           double excess = 1.0);
 
 }  // namespace rangezip
