@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,6 +28,7 @@
 #include "core/finish/snap_features.h"
 #include "core/finish/thin_handles.h"
 #include "core/finish/untangle.h"
+#include "core/mesh/face_changes.h"
 #include "core/mesh/self_intersection.h"
 
 namespace rangezip {
@@ -70,6 +73,8 @@ void check(const FinishOptions& options) {
   }
 }
 
+using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
 /// How fits to the surface and its triangles are to be made.
 struct Scale {
   FitWindow fit;      ///< as wide at each place as noise, bending and density ask for
@@ -84,17 +89,25 @@ Box region_of(const TriangleMesh& mesh, double margin) {
   return region;
 }
 
+/// What find_face_changes() compares with.
+TriangleMesh geometry_of(const TriangleMesh& mesh) {
+  return {mesh.positions, mesh.triangles, {}};
+}
+
 /// Grows over what no scan has reached, and closes what is left open. Around what cannot be closed
 /// faces go: there it grows again.
 void close(TriangleMesh& mesh, std::span<const Vec3> cloud, const PointGrid& points,
            const FinishOptions& options, FinishReport& report, const Progress& progress) {
-  for (int round = 0; round < kRegrowRounds; ++round) {
-    const std::size_t grown =
-        options.regrow ? regrow(mesh, cloud, points, options.pixel_size, progress) : 0;
-    report.regrown_faces += grown;
-    if (round > 0 && grown == 0) return;
-    repair(mesh, self_intersections(mesh), points, options, report, progress);
-    if (grown == 0) return;
+  if (options.regrow)
+    report.regrown_faces += regrow(mesh, cloud, points, options.pixel_size, progress);
+  repair(mesh, self_intersections(mesh), points, options, report, progress);
+  if (report.regrown_faces == 0) return;
+  for (int round = 1; round < kRegrowRounds; ++round) {
+    const TriangleMesh clean = geometry_of(mesh);
+    report.regrown_faces += regrow(mesh, cloud, points, options.pixel_size, progress);
+    const FaceChanges changes = find_face_changes(clean, mesh);
+    if (changes.made.empty() && changes.gone.empty()) return;
+    repair(mesh, self_intersections(mesh, changes.made), points, options, report, progress);
   }
 }
 
@@ -111,11 +124,17 @@ void remove_thin_handles(TriangleMesh& mesh, const PointGrid& cloud, const Finis
   }
 }
 
-/// After vertices of a clean mesh have moved: untangles faces that cross, and cuts out and closes
+std::vector<std::uint32_t> all_faces(const TriangleMesh& mesh) {
+  std::vector<std::uint32_t> faces(mesh.triangles.size());
+  std::iota(faces.begin(), faces.end(), 0U);
+  return faces;
+}
+
+/// After faces of a clean mesh have changed: untangles those that cross, and cuts out and closes
 /// again what still does. @return whether something was cut
-bool separate(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
-              FinishReport& report, const Progress& progress) {
-  const UntangleReport untangled = untangle(mesh);
+bool separate(TriangleMesh& mesh, std::span<const std::uint32_t> changed, const PointGrid& cloud,
+              const FinishOptions& options, FinishReport& report, const Progress& progress) {
+  const UntangleReport untangled = untangle(mesh, changed);
   report.untangled_pairs += untangled.crossed;
   if (untangled.left.empty()) return false;
   repair(mesh, untangled.left, cloud, options, report, progress);
@@ -127,6 +146,7 @@ void snap(TriangleMesh& mesh, const PointGrid& cloud, const Scale& scale,
           const FinishOptions& options, FinishReport& report, const Progress& progress) {
   constexpr int kRounds = 2;
   for (int round = 0; round < kRounds; ++round) {
+    const TriangleMesh clean = geometry_of(mesh);
     const SnapReport snapped = snap_features(
         mesh, cloud, {options.pixel_size, scale.fit, scale.sizes, scale.edge}, progress);
     report.snapped_vertices = std::max(report.snapped_vertices, snapped.snapped_vertices);
@@ -134,20 +154,23 @@ void snap(TriangleMesh& mesh, const PointGrid& cloud, const Scale& scale,
     report.collapsed_edges += snapped.collapsed_edges;
     report.flipped_edges += snapped.flipped_edges;
     if (snapped.snapped_vertices == 0) return;
-    if (!separate(mesh, cloud, options, report, progress)) return;
+    const std::vector<std::uint32_t> changed = find_face_changes(clean, mesh).made;
+    if (!separate(mesh, changed, cloud, options, report, progress)) return;
   }
 }
 
 /// What untangling left sharp.
 void mend_slivers(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
                   FinishReport& report, const Progress& progress) {
+  const TriangleMesh clean = geometry_of(mesh);
   CornerTable table(mesh.triangles, mesh.positions.size());
   const FeatureCleanupReport mended = remove_slivers(table, mesh.positions);
   if (mended.collapsed_edges + mended.flipped_edges == 0) return;
   report.collapsed_edges += mended.collapsed_edges;
   report.flipped_edges += mended.flipped_edges;
   mesh.triangles = table.triangles();
-  separate(mesh, cloud, options, report, progress);
+  const std::vector<std::uint32_t> changed = find_face_changes(clean, mesh).made;
+  separate(mesh, changed, cloud, options, report, progress);
 }
 
 /// Whether each face, of edges of about this length, has enough points with hardly any noise to be
@@ -163,8 +186,7 @@ bool is_to_coarsen(const TriangleMesh& mesh, const FinishOptions& options) {
 }
 
 /// Flags the vertices of a mesh in the boxes around faces, of another mesh, that cross.
-void mark_around(const TriangleMesh& mesh, const TriangleMesh& other,
-                 std::span<const std::pair<std::uint32_t, std::uint32_t>> crossing,
+void mark_around(const TriangleMesh& mesh, const TriangleMesh& other, const Pairs& crossing,
                  std::vector<std::uint8_t>& marked) {
   for (const auto& [i, j] : crossing) {
     Box box;
@@ -180,19 +202,43 @@ void mark_around(const TriangleMesh& mesh, const TriangleMesh& other,
   }
 }
 
+/// Faces that pairs name, each as often as they do.
+std::vector<std::uint32_t> faces_in(const Pairs& pairs) {
+  std::vector<std::uint32_t> faces;
+  for (const auto& [i, j] : pairs) {
+    faces.push_back(i);
+    faces.push_back(j);
+  }
+  return faces;
+}
+
 /// Coarsens without faces that cross: where they come, the triangles stay as they are.
-std::size_t coarsen_cleanly(TriangleMesh& mesh, CoarsenOptions options, const Progress& progress) {
+/// @return faces that cross nevertheless
+std::vector<std::uint32_t> coarsen_cleanly(TriangleMesh& mesh, CoarsenOptions options,
+                                           FinishReport& report, const Progress& progress) {
   const TriangleMesh fine = mesh;
   options.is_kept.assign(fine.positions.size(), 0);
-  std::size_t collapsed = coarsen(mesh, options, progress);
-  for (int round = 0; round < kCoarsenRounds; ++round) {
-    const auto crossing = self_intersections(mesh);
-    if (crossing.empty()) break;
+  for (int round = 0;; ++round) {
+    const std::size_t collapsed = coarsen(mesh, options, progress);
+    const Pairs crossing = self_intersections(mesh);
+    if (crossing.empty() || round == kCoarsenRounds) {
+      report.collapsed_edges += collapsed;
+      return faces_in(crossing);
+    }
     mark_around(fine, mesh, crossing, options.is_kept);
     mesh = fine;
-    collapsed = coarsen(mesh, options, progress);
   }
-  return collapsed;
+}
+
+/// Takes fits back where faces crossed. @return faces that still do
+std::vector<std::uint32_t> fit_cleanly(TriangleMesh& mesh, std::vector<Vec3> points,
+                                       const FitFacesOptions& options, FinishReport& report,
+                                       const Progress& progress) {
+  const std::vector<Vec3> positions = mesh.positions;
+  fit_faces(mesh, std::move(points), options, progress);
+  const UntangleReport untangled = take_back_crossing(mesh, positions);
+  report.untangled_pairs += untangled.crossed;
+  return faces_in(untangled.left);
 }
 
 /// As few triangles as are asked for, where they are nearest to the cloud.
@@ -202,18 +248,17 @@ void coarsen_to_cloud(TriangleMesh& mesh, const PointGrid& cloud, const FinishOp
   CoarsenOptions coarse{.triangles = options.triangles};
   if (options.triangles == 0)
     coarse.tolerance = kMeanOfTolerance * options.flat_tolerance * options.pixel_size;
-  report.collapsed_edges += coarsen_cleanly(mesh, coarse, progress);
+  std::vector<std::uint32_t> left = coarsen_cleanly(mesh, coarse, report, progress);
   remove_unused_vertices(mesh);
   const std::size_t after = mesh.triangles.size();
   const double edge =
       options.pixel_size * std::sqrt(static_cast<double>(before) / static_cast<double>(after));
   if (are_points_dense(mesh, cloud, report.noise, edge)) {
-    const std::vector<Vec3> positions = mesh.positions;
-    fit_faces(mesh, cloud.points(kMostPoints * after),
-              {.reach = edge, .small_angle = kCoarseSmallAngle, .hold = kCoarseHold}, progress);
-    report.untangled_pairs += take_back_crossing(mesh, positions);
+    left = fit_cleanly(mesh, cloud.points(kMostPoints * after),
+                       {.reach = edge, .small_angle = kCoarseSmallAngle, .hold = kCoarseHold},
+                       report, progress);
   }
-  separate(mesh, cloud, options, report, progress);
+  separate(mesh, left, cloud, options, report, progress);
   mend_slivers(mesh, cloud, options, report, progress);
 }
 
@@ -276,14 +321,13 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
                                report, progress);
   const bool is_dense = !is_coarsened && are_points_dense(mesh, cloud, fit.noise, h);
   if (!is_dense) fit_vertices(mesh, surface, fit, progress);
-  separate(mesh, cloud, options, report, progress);
+  separate(mesh, all_faces(mesh), cloud, options, report, progress);
   if (options.snap_features) snap(mesh, cloud, scale, options, report, progress);
   mend_slivers(mesh, cloud, options, report, progress);
   if (is_dense) {
-    const std::vector<Vec3> positions = mesh.positions;
-    fit_faces(mesh, cloud.points(kMostPoints * mesh.triangles.size()), {.reach = h}, progress);
-    report.untangled_pairs += take_back_crossing(mesh, positions);
-    separate(mesh, cloud, options, report, progress);
+    const auto left = fit_cleanly(mesh, cloud.points(kMostPoints * mesh.triangles.size()),
+                                  {.reach = h}, report, progress);
+    separate(mesh, left, cloud, options, report, progress);
   }
   extend(mesh, cloud, options, report, progress);
   if (is_coarsened) {

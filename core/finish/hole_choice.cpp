@@ -168,13 +168,12 @@ std::optional<FillShape> choose_fill(const std::vector<Vec3>& positions, const C
   const HoleFill fill = fill_loop(positions, table, loop, FillShape::smooth, h, evidence);
   const FillInside inside = look_inside(geometry, fill, cloud, h);
   if (inside.shown == Inside::points) return FillShape::smooth;
-  if (is_rim(geometry, is_zipped, h)) return std::nullopt;
+  const auto has_gap = [&] { return is_left_out(geometry, positions, fill, cloud, h); };
+  if (is_rim(geometry, is_zipped, h) && (!options.is_sampled || has_gap())) return std::nullopt;
   if (inside.width < options.narrow_width * h) return FillShape::flat;
   if (!is_zipped) return FillShape::zipped;
   const bool is_to_close = geometry.perimeter <= options.max_hole_perimeter * h;
-  if (!is_to_close && options.is_sampled && is_left_out(geometry, positions, fill, cloud, h)) {
-    return std::nullopt;
-  }
+  if (!is_to_close && options.is_sampled && has_gap()) return std::nullopt;
   const double limit = std::max(options.max_hole_perimeter, kLargePerimeter) * h;
   if (geometry.perimeter > limit && inside.width > kLargeWidth * limit) return std::nullopt;
   return geometry.perimeter <= kSmoothPerimeter * h ? FillShape::smooth : FillShape::flat;

@@ -22,7 +22,7 @@ struct HoleChoiceOptions {
 /// - the outline of a sheet stays: a fill would fold back over the sheet;
 /// - a loop with points of the cloud inside is closed whatever its size;
 /// - a round rim (longer than 20 h) where the surface ends without leading into the hole, as at the
-///   end of a tube, stays;
+///   end of a tube, stays unless points are all over the fill;
 /// - a crack, nowhere wider than narrow_width, is closed whatever its length;
 /// - others are first zipped where their sides are close, since cracks often open into a border;
 /// - once zipped, one stays that is longer than max_hole_perimeter and has a disc so wide and

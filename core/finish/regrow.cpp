@@ -192,7 +192,6 @@ std::size_t regrow(TriangleMesh& mesh, std::span<const Vec3> points, const Point
   const std::size_t count = advance_front(part.mesh, missing, h, progress);
   put_back(std::move(part), mesh);
   clean_topology(mesh);
-  remove_unused_vertices(mesh);
   return count;
 }
 

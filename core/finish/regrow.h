@@ -25,7 +25,8 @@ namespace rangezip {
 /// @param grid of the same points
 /// @param pixel_size h, model units; positive
 /// @return faces that came; 0 if nothing was to be done
-/// @pre oriented, manifold; stays so. Faces that come cross none.
+/// @pre oriented, manifold; stays so. Faces that come cross none. Vertices keep their numbers, also
+///     those that no face is left of.
 std::size_t regrow(TriangleMesh& mesh, std::span<const Vec3> points, const PointGrid& grid,
                    double pixel_size, const Progress& progress = {});
 

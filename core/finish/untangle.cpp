@@ -77,10 +77,10 @@ std::vector<std::uint32_t> changed_faces(const TriangleMesh& mesh,
 
 }  // namespace
 
-std::size_t take_back_crossing(TriangleMesh& mesh, const std::vector<Vec3>& before) {
+UntangleReport take_back_crossing(TriangleMesh& mesh, const std::vector<Vec3>& before) {
   Pairs pairs = self_intersections(mesh);
   const std::size_t crossed = pairs.size();
-  if (pairs.empty()) return 0;
+  if (pairs.empty()) return {};
   const CornerTable table(mesh.triangles, mesh.positions.size());
   std::vector<std::uint8_t> taken_back(mesh.positions.size(), 0);
   for (int round = 0; round < kRounds && !pairs.empty(); ++round) {
@@ -90,12 +90,13 @@ std::size_t take_back_crossing(TriangleMesh& mesh, const std::vector<Vec3>& befo
     }
     pairs = self_intersections(mesh, changed_faces(mesh, taken_back, pairs));
   }
-  return crossed;
+  return {crossed, std::move(pairs)};
 }
 
-UntangleReport untangle(TriangleMesh& mesh) {
+UntangleReport untangle(TriangleMesh& mesh, std::span<const std::uint32_t> changed) {
+  Pairs pairs = self_intersections(mesh, changed);
+  if (pairs.empty()) return {};
   const CornerTable table(mesh.triangles, mesh.positions.size());
-  Pairs pairs = self_intersections(mesh);
   const std::size_t crossed = pairs.size();
   for (int round = 0; round < kRounds && !pairs.empty(); ++round) {
     const std::vector<std::uint8_t> tangled =

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -18,15 +19,15 @@ struct UntangleReport {
 /// of these faces, in later rounds those around them, too. Nothing crosses in the end if nothing
 /// did before, unless six rounds do not do. Cost: self_intersections() a round.
 /// @param before a position for each vertex
-/// @return how many pairs of faces crossed at first
-std::size_t take_back_crossing(TriangleMesh& mesh, const std::vector<Vec3>& before);
+UntangleReport take_back_crossing(TriangleMesh& mesh, const std::vector<Vec3>& before);
 
 /// Pulls faces apart that cross others by smoothing where they are: the inner vertices of crossing
 /// faces move to the middle of their neighbours, from the third round on with those around them.
 /// Most folds that moving vertices by themselves has made come apart so, without a hole to fill.
 /// Ends when nothing crosses, or after six rounds. The topology and the boundary stay. Cost:
-/// self_intersections() a round.
+/// self_intersections() of what has changed a round.
+/// @param changed faces; all others are known not to cross each other
 /// @pre oriented, manifold (core/finish/clean_topology.h)
-UntangleReport untangle(TriangleMesh& mesh);
+UntangleReport untangle(TriangleMesh& mesh, std::span<const std::uint32_t> changed);
 
 }  // namespace rangezip

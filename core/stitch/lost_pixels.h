@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "core/mesh/face_changes.h"
 #include "core/mesh/triangle_mesh.h"
-#include "core/stitch/face_changes.h"
 #include "core/stitch/image_plane.h"
 #include "core/view/view.h"
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "core/mesh/face_changes.h"
 #include "core/mesh/triangle_mesh.h"
-#include "core/stitch/face_changes.h"
 #include "core/view/view.h"
 
 namespace rangezip {

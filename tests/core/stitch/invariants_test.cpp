@@ -4,10 +4,10 @@
 #include <catch2/catch.hpp>
 #include <set>
 
+#include "core/mesh/face_changes.h"
 #include "core/mesh/self_intersection.h"
 #include "core/patch/decimate.h"
 #include "core/stitch/crossing_faces.h"
-#include "core/stitch/face_changes.h"
 #include "core/stitch/lost_pixels.h"
 #include "core/stitch/lost_places.h"
 #include "core/stitch/mesh_part.h"

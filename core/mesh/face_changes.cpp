@@ -1,4 +1,4 @@
-#include "core/stitch/face_changes.h"
+#include "core/mesh/face_changes.h"
 
 #include <algorithm>
 #include <cstddef>
