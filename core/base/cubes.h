@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/geometry.h"
+#include "core/base/spread.h"
 
 namespace rangezip {
 
@@ -21,6 +22,16 @@ using Cube = std::array<std::int64_t, 3>;
           static_cast<std::int64_t>(std::floor(point.y / side)),
           static_cast<std::int64_t>(std::floor(point.z / side))};
 }
+
+/// For containers that hash.
+struct CubeHash {
+  [[nodiscard]] std::size_t operator()(const Cube& cube) const noexcept {
+    std::uint64_t bits = 0;
+    for (const std::int64_t coordinate : cube)
+      bits = scrambled_bits(bits ^ static_cast<std::uint64_t>(coordinate));
+    return static_cast<std::size_t>(bits);
+  }
+};
 
 /// Sorts cubes, each once.
 inline void sort_cubes(std::vector<Cube>& cubes) {

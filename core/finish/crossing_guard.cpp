@@ -5,13 +5,6 @@
 
 namespace rangezip {
 
-std::size_t CrossingGuard::CubeHash::operator()(const Cube& cube) const noexcept {
-  std::uint64_t bits = 0;
-  for (const std::int64_t coordinate : cube)
-    bits = scrambled_bits(bits ^ static_cast<std::uint64_t>(coordinate));
-  return static_cast<std::size_t>(bits);
-}
-
 CrossingGuard::CrossingGuard(const TriangleMesh& mesh, double side) : mesh_(mesh), side_(side) {
   for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f)
     add(f);

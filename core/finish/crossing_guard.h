@@ -27,10 +27,6 @@ class CrossingGuard {
   [[nodiscard]] bool would_cross(const Triangle& face) const;
 
  private:
-  struct CubeHash {
-    std::size_t operator()(const Cube& cube) const noexcept;
-  };
-
   template <class Visit>
   void for_each_cube(const Box& box, const Visit& visit) const;
 

@@ -21,6 +21,7 @@
 #include "core/finish/fit_window.h"
 #include "core/finish/local_sizes.h"
 #include "core/finish/point_grid.h"
+#include "core/finish/point_sides.h"
 #include "core/finish/regrow.h"
 #include "core/finish/remesh.h"
 #include "core/finish/repair.h"
@@ -346,11 +347,14 @@ FinishResult finish(TriangleMesh mesh, std::span<const Vec3> cloud, const Finish
   if (mesh.empty()) return result;
   progress.at("finish", 0.0);
   const double h = options.pixel_size;
-  const PointGrid points(cloud, region_of(mesh, kRegionMargin * h), kPointCell * h);
+  PointGrid points(cloud, region_of(mesh, kRegionMargin * h), kPointCell * h);
   clean_topology(mesh);
   close(mesh, cloud, points, options, result.report, progress);
   remove_thin_handles(mesh, points, options, result.report, progress);
-  if (options.method == FinishMethod::full) improve(mesh, points, options, result.report, progress);
+  if (options.method == FinishMethod::full) {
+    if (options.gap == 0.0) tell_sides(points, mesh, h);  // contours are too far apart for that
+    improve(mesh, points, options, result.report, progress);
+  }
   remove_unused_vertices(mesh);
   const CornerTable table(mesh.triangles, mesh.positions.size());
   result.report.open_loops = boundary_loops(table).size();

@@ -2,12 +2,15 @@
 
 #include <cmath>
 
+#include "core/base/parallel.h"
+
 namespace rangezip {
 namespace {
 
 /// Bounds the memory of the grid: cells for each point, and for a start.
 constexpr std::size_t kCellsPerPoint = 4;
 constexpr std::size_t kFreeCells = 4096;
+constexpr std::size_t kPointsPerBlock = 1024;
 
 bool contains(const Box& box, const Vec3& p) {
   return box.lower.x <= p.x && p.x <= box.upper.x && box.lower.y <= p.y && p.y <= box.upper.y &&
@@ -60,10 +63,36 @@ PointGrid::PointGrid(std::span<const Vec3> points, const Box& region, double cel
   starts_.front() = 0;
 }
 
+void PointGrid::note_facings(const std::function<Vec3(const Vec3&)>& facing_at) {
+  facings_.assign(positions_.size(), Facing{});
+  parallel_for(positions_.size(), kPointsPerBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3 facing = facing_at(origin_ + Vec3(positions_[i]));
+      for (int axis = 0; axis < 3; ++axis) {
+        facings_[i][static_cast<std::size_t>(axis)] =
+            static_cast<std::int8_t>(std::lround(kFacingSteps * facing[axis]));
+      }
+    }
+  });
+  count_known_facings();
+}
+
+void PointGrid::count_known_facings() {
+  known_facings_.assign(starts_.size(), 0);
+  for (std::size_t cell = 0; cell + 1 < starts_.size(); ++cell) {
+    std::uint32_t known = known_facings_[cell];
+    for (std::size_t i = starts_[cell]; i < starts_[cell + 1]; ++i)
+      known += facings_[i] == Facing{} ? 0 : 1;
+    known_facings_[cell + 1] = known;
+  }
+}
+
 PointGrid PointGrid::thinned(int parts) const {
+  constexpr std::size_t kSides = 2;
   struct Part {
     Vec3 sum{0.0};
     std::uint32_t count = 0;
+    Facing facing{};
   };
   PointGrid thin;
   thin.origin_ = origin_;
@@ -71,7 +100,7 @@ PointGrid PointGrid::thinned(int parts) const {
   thin.dims_ = dims_;
   thin.starts_.assign(starts_.size(), 0);
   const auto along = static_cast<std::size_t>(parts);
-  std::vector<Part> inside(along * along * along);
+  std::vector<Part> inside(kSides * along * along * along);
   const auto part_of = [&](const Vec3f& p) {
     std::size_t part = 0;
     for (int axis = 2; axis >= 0; --axis) {
@@ -83,7 +112,11 @@ PointGrid PointGrid::thinned(int parts) const {
   };
   for (std::size_t cell = 0; cell + 1 < starts_.size(); ++cell) {
     for (std::size_t i = starts_[cell]; i < starts_[cell + 1]; ++i) {
-      Part& part = inside[part_of(positions_[i])];
+      const Facing facing = facings_.empty() ? Facing{} : facings_[i];
+      const std::size_t first = kSides * part_of(positions_[i]);
+      const bool is_other = faces_away(inside[first].facing, vector_of(facing) / kFacingSteps);
+      Part& part = inside[first + (is_other ? 1 : 0)];
+      if (part.facing == Facing{}) part.facing = facing;
       part.sum += Vec3(positions_[i]);
       ++part.count;
     }
@@ -91,10 +124,12 @@ PointGrid PointGrid::thinned(int parts) const {
       if (part.count == 0) continue;
       thin.positions_.emplace_back(part.sum / static_cast<double>(part.count));
       thin.counts_.push_back(part.count);
+      if (!facings_.empty()) thin.facings_.push_back(part.facing);
       part = {};
     }
     thin.starts_[cell + 1] = static_cast<std::uint32_t>(thin.positions_.size());
   }
+  if (!facings_.empty()) thin.count_known_facings();
   return thin;
 }
 

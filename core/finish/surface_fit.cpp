@@ -262,7 +262,7 @@ void add_samples(const PointGrid& cloud, const Vec3& place, const Frame& frame,
   const double per_radius = 1.0 / window.radius;
   const double height = window.height;
   const Vec3 normal = frame.normal;
-  cloud.for_each_counted_near(place, window.radius, [&](const Vec3& d, double count) {
+  cloud.for_each_counted_near(place, window.radius, normal, [&](const Vec3& d, double count) {
     const double z = glm::dot(d, normal);
     const double nearness = 1.0 - (glm::dot(d, d) - z * z) * per_radius * per_radius;
     batch[chosen] = {d, z, nearness, count};

@@ -29,7 +29,8 @@ struct SurfaceFit {
 
 /// Weighted least squares of a quadric z = z(u, v) over the plane through `place` across `normal`
 /// [Cazals, Pouget 2005]; weights fall to 0 at the radius. With few points a plane is fitted, with
-/// fewer than six nothing. Cost: the points within the radius, which may be widened.
+/// fewer than six nothing. Points that are known to face away (PointGrid::note_facings()) do not
+/// count. Cost: the points within the radius, which may be widened.
 /// @pre normal is a unit vector
 [[nodiscard]] SurfaceFit fit_surface(const PointGrid& cloud, const Vec3& place, const Vec3& normal,
                                      const SurfaceWindow& window);

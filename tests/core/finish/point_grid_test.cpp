@@ -1,5 +1,6 @@
 #include "core/finish/point_grid.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -62,7 +63,7 @@ TEST_CASE("a thinned grid has as many points in all, with the same mean, and few
     expected += p;
   double count = 0.0;
   std::size_t places = 0;
-  thin.for_each_counted_near(Vec3{0.0}, 10.0, [&](const Vec3& d, double n) {
+  thin.for_each_counted_near(Vec3{0.0}, 10.0, Vec3{0.0, 0.0, 1.0}, [&](const Vec3& d, double n) {
     sum += n * d;
     count += n;
     ++places;
@@ -72,6 +73,37 @@ TEST_CASE("a thinned grid has as many points in all, with the same mean, and few
   const int cells = 6 * parts + parts;
   REQUIRE(places <= static_cast<std::size_t>(cells * cells * cells));
   REQUIRE(places < points.size());
+}
+
+TEST_CASE("points that face away are left out, and a thinned grid keeps both sides apart") {
+  std::mt19937_64 engine(8);
+  std::vector<Vec3> points;  // two sheets, closer to each other than the parts that are thinned
+  for (int i = 0; i < 4000; ++i) {
+    const double z = i % 2 == 0 ? 0.0 : 0.01;
+    points.emplace_back(uniform(engine, 0, 1), uniform(engine, 0, 1), z);
+  }
+  PointGrid grid(points, {Vec3(-0.1), Vec3(1.1)}, 0.2);
+  const Vec3 up{0.0, 0.0, 1.0};
+  const auto count_of = [](const PointGrid& of, const Vec3& normal) {
+    double count = 0.0;
+    of.for_each_counted_near(Vec3(0.5), 2.0, normal, [&](const Vec3&, double n) { count += n; });
+    return count;
+  };
+  CHECK(count_of(grid, up) == 4000.0);
+  grid.note_facings([&](const Vec3& p) {
+    if (p.x > 0.5) return Vec3(0.0);  // not known there
+    return p.z > 0.005 ? up : -up;
+  });
+  const double lower = static_cast<double>(std::count_if(
+      points.begin(), points.end(), [](const Vec3& p) { return p.z == 0.0 && !(p.x > 0.5); }));
+  REQUIRE(lower > 900.0);
+  CHECK(count_of(grid, up) == 4000.0 - lower);
+  CHECK(count_of(grid, Vec3{1.0, 0.0, 0.0}) == 4000.0);
+  const PointGrid thin = grid.thinned(2);
+  CHECK(count_of(thin, up) == Approx(4000.0 - lower).margin(150.0));  // where known meets unknown
+  thin.for_each_counted_near(Vec3{0.1, 0.5, 0.0}, 0.05, up, [&](const Vec3& d, double) {
+    if (d.x < 0.1) CHECK(d.z == Approx(0.01).margin(1e-6));  // a mean of one side only
+  });
 }
 
 }  // namespace
