@@ -155,7 +155,7 @@ CASES = [
                                                 Bound('fscore_01', '>=', 0.98), Bound('normal_dev_p95', '<=', 12.0)]),
     decimated('fandisk 100 K, decimated', 'mesh/fandisk.obj', 100_000, 1, 0.012),
     decimated('fandisk 400 K, decimated', 'mesh/fandisk.obj', 400_000, 1, 0.01),
-    decimated('fandisk 400 K, quad-trees', 'mesh/fandisk.obj', 400_000, 1, 0.1, finish='fast'),
+    decimated('fandisk 400 K, quad-trees', 'mesh/fandisk.obj', 400_000, 1, 0.08, finish='fast'),
     Case('igea 400 K', Sampled('mesh/igea.ply', 400_000, 3), bounds=CLEAN + CLOSED + NO_SMALL_ANGLES + cost(6, 300)),
     Case('Laurana 400 K', Sampled('mesh/Laurana50k.ply', 400_000, 1), bounds=CLEAN + NO_SMALL_ANGLES + cost(6, 300)),
     Case('igea 1.4 M', Sampled('mesh/igea.ply', 1_400_000, 5), bounds=CLEAN + CLOSED + NO_SMALL_ANGLES + cost(20, 700)),

@@ -23,7 +23,7 @@ constexpr int kTurningRounds = 4;  // after the first; later ones find hardly an
 constexpr int kSweeps = 10;        // of solving: the rounds go on with what is left
 constexpr double kMostTurn = 0.5;
 constexpr double kSharpest = 0.5;   // edge that may arise
-constexpr double kTurnGain = 0.95;  // of the squared distances: equal ones would turn to and fro
+constexpr double kTurnGain = 0.98;  // of the squared distances: equal ones would turn to and fro
 constexpr std::array kShares{1.0, 0.5, 0.25};  // of the way of a vertex, the first that may be
 constexpr double kHoldAlways = 0.001;          // in points: where there are none
 constexpr double kRelaxStep = 0.55;  // towards the middle of the faces, that is held on to

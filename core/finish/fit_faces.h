@@ -14,7 +14,7 @@ struct FitFacesOptions {
   double small_angle = 0.515;
   /// What holds vertices in the middle of their faces, in the weight of the points: where the
   /// surface bends by more than its root, a tenth of a radian, over an edge, the points decide.
-  double hold = 0.01;
+  double hold = 0.0105;
 };
 
 /// Moves inner vertices, in any direction, and turns edges, so that the flat triangles are as near

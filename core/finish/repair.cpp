@@ -23,6 +23,12 @@ namespace {
 
 /// Rounds in which loops that are to be joined, but are hindered, are kept open for the next one.
 constexpr int kRoundsToJoin = 3;
+/// Of loops over points with more edges than that, in so many rounds only what is in the way is
+/// cleared, with so many vertices on both sides: along the edge of a blade every ring of faces is a
+/// part of it lost.
+constexpr std::size_t kLongLoop = 40;
+constexpr int kGentleRounds = 4;
+constexpr std::size_t kAroundObstacle = 2;
 /// In h: loops up to this that cannot be closed otherwise are zipped.
 constexpr double kLongestZipped = 60.0;
 
@@ -81,9 +87,48 @@ std::vector<BoundaryLoop> hindered_among(std::vector<BoundaryLoop>& loops, const
   return hindered;
 }
 
+/// Flags the vertices of a loop next to those that are obstructed; all if none is.
+void mark_obstructed(const std::vector<std::uint32_t>& loop,
+                     const std::vector<std::uint8_t>& is_obstructed,
+                     std::vector<std::uint8_t>& marked) {
+  const std::size_t n = loop.size();
+  bool any = false;
+  for (std::size_t k = 0; k < n; ++k) {
+    if (is_obstructed[loop[k]] == 0) continue;
+    any = true;
+    for (std::size_t i = n - kAroundObstacle; i <= n + kAroundObstacle; ++i)
+      marked[loop[(k + i) % n]] = 1;
+  }
+  if (any) return;
+  for (const std::uint32_t v : loop)
+    marked[v] = 1;
+}
+
+/// Flags the vertices of loops around which faces are to go before the next round: of long ones
+/// over points, in the first rounds, only next to what is in the way.
+std::vector<std::uint8_t> unfilled_vertices(const TriangleMesh& mesh, const CornerTable& table,
+                                            const std::vector<FillRequest>& requests,
+                                            const VerifiedFills& fills, bool is_gentle) {
+  std::vector<std::uint8_t> unfilled(mesh.positions.size(), 0);
+  std::vector<std::uint8_t> is_obstructed(mesh.positions.size(), 0);
+  if (is_gentle) {
+    for (const std::uint32_t v : fills.obstructed)
+      is_obstructed[v] = 1;
+  }
+  const std::vector<std::uint8_t> none(mesh.positions.size(), 0);
+  for (const std::size_t i : fills.rejected) {
+    const std::vector<std::uint32_t> loop = vertices_of(requests[i].loop, table);
+    const bool is_shown = requests[i].shape == FillShape::smooth;  // by points, if it is long
+    mark_obstructed(loop, is_shown && loop.size() > kLongLoop ? is_obstructed : none, unfilled);
+  }
+  return unfilled;
+}
+
+/// @param round the first is 0
 /// @param is_hindered of vertices: their loops are not filled in this round; empty: none
-FillOutcome fill(TriangleMesh& mesh, bool is_zipped, const std::vector<std::uint8_t>& is_hindered,
+FillOutcome fill(TriangleMesh& mesh, int round, const std::vector<std::uint8_t>& is_hindered,
                  const PointGrid& cloud, const FinishOptions& options, FinishReport& report) {
+  const bool is_zipped = round > 0;
   const CornerTable table(mesh.triangles, mesh.positions.size());
   std::vector<BoundaryLoop> loops = boundary_loops(table);
   const std::vector<BoundaryLoop> hindered = hindered_among(loops, table, is_hindered);
@@ -107,11 +152,7 @@ FillOutcome fill(TriangleMesh& mesh, bool is_zipped, const std::vector<std::uint
   report.filled_holes += fills.filled_holes;
   report.filled_faces += fills.filled_faces;
   FillOutcome outcome;
-  outcome.unfilled.assign(mesh.positions.size(), 0);
-  for (const std::size_t i : fills.rejected) {
-    for (const std::uint32_t v : vertices_of(requests[i].loop, table))
-      outcome.unfilled[v] = 1;
-  }
+  outcome.unfilled = unfilled_vertices(mesh, table, requests, fills, round < kGentleRounds);
   for (const BoundaryLoop& loop : hindered) {
     for (const std::uint32_t v : vertices_of(loop, table))
       outcome.unfilled[v] = 1;
@@ -145,8 +186,7 @@ void repair(TriangleMesh& mesh, const Pairs& crossing, const PointGrid& cloud,
     JoinedLoops joined = join_loops(mesh, cloud, options.pixel_size);
     report.joined_loops += joined.pairs;
     if (round >= kRoundsToJoin) joined.is_hindered.clear();
-    const bool is_zipped = round > 0;
-    const FillOutcome outcome = fill(mesh, is_zipped, joined.is_hindered, cloud, options, report);
+    const FillOutcome outcome = fill(mesh, round, joined.is_hindered, cloud, options, report);
     if (outcome.is_done || round + 1 == options.rounds) break;
     widen(mesh, outcome.unfilled);
   }

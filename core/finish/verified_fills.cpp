@@ -29,14 +29,27 @@ Trial make_trial(const TriangleMesh& mesh, const std::vector<HoleFill>& fills) {
   return trial;
 }
 
-/// Flags the fills that must go.
-std::vector<std::uint8_t> failing_fills(const TriangleMesh& mesh,
-                                        const std::vector<HoleFill>& fills) {
+struct FillVerdict {
+  std::vector<std::uint8_t> fails;        ///< flags of the fills that must go
+  std::vector<std::uint32_t> obstructed;  ///< VerifiedFills::obstructed
+};
+
+FillVerdict judge_fills(const TriangleMesh& mesh, const std::vector<HoleFill>& fills) {
   const Trial trial = make_trial(mesh, fills);
   std::vector<std::uint32_t> added(trial.fill_of.size());
   std::iota(added.begin(), added.end(), static_cast<std::uint32_t>(trial.old_faces));
   const auto pairs = self_intersections(trial.mesh, added);
-  std::vector<std::uint8_t> fails(fills.size(), 0);
+  FillVerdict verdict;
+  for (const auto& pair : pairs) {
+    for (const std::uint32_t face : {pair.first, pair.second}) {
+      if (face < trial.old_faces) continue;
+      for (const std::uint32_t v : trial.mesh.triangles[face]) {
+        if (v < mesh.positions.size()) verdict.obstructed.push_back(v);
+      }
+    }
+  }
+  std::vector<std::uint8_t>& fails = verdict.fails;
+  fails.assign(fills.size(), 0);
   const auto fill_of = [&](std::uint32_t face) { return trial.fill_of[face - trial.old_faces]; };
   for (const auto& [i, j] : pairs) {  // j > i is always a new face
     if (i < trial.old_faces || fill_of(i) == fill_of(j)) fails[fill_of(j)] = 1;
@@ -45,7 +58,7 @@ std::vector<std::uint8_t> failing_fills(const TriangleMesh& mesh,
     if (i < trial.old_faces || fails[fill_of(i)] != 0 || fails[fill_of(j)] != 0) continue;
     fails[std::max(fill_of(i), fill_of(j))] = 1;
   }
-  return fails;
+  return verdict;
 }
 
 /// Fills made for a request: one, or the pieces of a zipped loop.
@@ -102,7 +115,8 @@ class Filler {
         fills.push_back(std::move(fill));
       request_of.resize(fills.size(), chosen[k]);
     }
-    const std::vector<std::uint8_t> fails = failing_fills(mesh_, fills);
+    const auto [fails, obstructed] = judge_fills(mesh_, fills);
+    if (instead == FillShape::coarse) result_.obstructed = obstructed;
     const std::size_t base = mesh_.positions.size();
     std::vector<std::uint8_t> is_served(requests_.size(), 0);
     for (std::size_t i = 0; i < fills.size(); ++i) {
@@ -137,7 +151,7 @@ VerifiedFills fill_verified(TriangleMesh& mesh, const CornerTable& table,
 
 std::vector<std::size_t> append_verified(TriangleMesh& mesh, const std::vector<HoleFill>& fills) {
   if (fills.empty()) return {};
-  const std::vector<std::uint8_t> fails = failing_fills(mesh, fills);
+  const std::vector<std::uint8_t> fails = judge_fills(mesh, fills).fails;
   const std::size_t base = mesh.positions.size();
   std::vector<std::size_t> left_out;
   for (std::size_t i = 0; i < fills.size(); ++i) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -26,6 +27,9 @@ struct VerifiedFills {
   std::size_t filled_faces = 0;
   std::size_t zipped_pieces = 0;
   std::vector<std::size_t> rejected;  ///< indices of requests to fill that nothing was done for
+  /// Vertices of the mesh with faces, in coarse fills, that crossed something: where rejected loops
+  /// are obstructed. In no order, some more than once.
+  std::vector<std::uint32_t> obstructed;
 };
 
 /// Fills loops and keeps the fills whose faces neither cross the mesh, nor each other, nor have no
