@@ -151,7 +151,7 @@ void add_resolution_options(CLI::App& command, MeshOptions& options) {
                  "H");
   add_parsed(
       command, "--triangles", options.reconstruct.triangles, parse_count,
-      "How many triangles to make, to about 2 %, instead of a pixel size; without the full finish "
+      "How many triangles to make, within 5 %, instead of a pixel size; without the full finish "
       "by trying a few sizes of pixels",
       "N")
       ->excludes(pixel_size);

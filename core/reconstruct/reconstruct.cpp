@@ -12,6 +12,7 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/base/progress_part.h"
 #include "core/base/spread.h"
 #include "core/finish/left_out_points.h"
 #include "core/mesh/self_intersection.h"
@@ -92,15 +93,15 @@ class StageClock {
   std::clock_t cpu_start_ = 0;
 };
 
-/// A part of the caller's progress bar.
+/// A part of the caller's progress bar, all of it one stage.
 Progress part_of(const Progress& whole, const char* stage, double begin, double end) {
-  Progress part{.stop = whole.stop};
+  Progress named{.stop = whole.stop};
   if (whole.report) {
-    part.report = [report = whole.report, stage, begin, end](std::string_view, double share) {
-      report(stage, begin + share * (end - begin));
+    named.report = [report = whole.report, stage](std::string_view, double share) {
+      report(stage, share);
     };
   }
-  return part;
+  return part_of(named, begin, end);
 }
 
 void check_options(const Scene& scene, const ReconstructOptions& options) {
@@ -113,17 +114,6 @@ void check_options(const Scene& scene, const ReconstructOptions& options) {
     throw InvalidArgument("reconstruct: threads must not be negative, got " +
                           std::to_string(options.threads));
   }
-}
-
-/// A part of the caller's progress bar, by the same stages.
-Progress round_of(const Progress& whole, double begin, double end) {
-  Progress part{.stop = whole.stop};
-  if (whole.report) {
-    part.report = [report = whole.report, begin, end](std::string_view stage, double share) {
-      report(stage, begin + share * (end - begin));
-    };
-  }
-  return part;
 }
 
 /// One automatic run. Every change to the mesh is a command of a Session, so the run can be
@@ -456,7 +446,7 @@ ReconstructResult run_until_count_fits(const Scene& scene, Rasterizer& rasterize
   double begin = 0.0;
   for (int round = 1; round <= kSizeRounds && least_off > kCountTolerance; ++round) {
     const double end = round == kSizeRounds ? 1.0 : 0.5 * (1.0 + begin);
-    const Progress part = round_of(progress, begin, end);
+    const Progress part = part_of(progress, begin, end);
     begin = end;
     ReconstructResult result = Run(scene, rasterizer, options, search.excess(), part).result();
     stages.insert(stages.end(), result.report.stages.begin(), result.report.stages.end());

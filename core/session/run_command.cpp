@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "core/base/error.h"
+#include "core/base/progress_part.h"
 #include "core/finish/hole_filling.h"
 #include "core/finish/laplacian_smooth.h"
 #include "core/finish/unsupported_faces.h"
@@ -20,17 +21,6 @@ namespace {
 
 constexpr std::size_t kAreaSamples = 200'000;
 constexpr double kVoteShare = 0.5;  ///< of an AddScan that has to vote first
-
-/// The part [begin, end] of the caller's progress bar.
-Progress part_of(const Progress& whole, double begin, double end) {
-  Progress part{.stop = whole.stop};
-  if (whole.report) {
-    part.report = [report = whole.report, begin, end](std::string_view stage, double share) {
-      report(stage, begin + share * (end - begin));
-    };
-  }
-  return part;
-}
 
 /// Unit vector along the line of sight, toward the scanner; of the middle ray for a central
 /// projection.
