@@ -16,6 +16,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 import boundary_check
+import raw_scans
 import shapes
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -57,6 +58,18 @@ class Sampled:
 
 
 @dataclass
+class Scanned:
+    """The merged raw scans of raw_scans.py of a mesh."""
+    mesh: str
+    seed: int
+    scanner: raw_scans.Scanner
+
+    def text(self):
+        return '%s, %d raw scans, registered to %g %%' % (
+            self.mesh, self.scanner.scans, 100 * self.scanner.shift)
+
+
+@dataclass
 class Made:
     """A body of shapes.py and its cloud, lengths in the pixel side that is chosen for it."""
     shape: str
@@ -68,7 +81,7 @@ class Made:
 @dataclass
 class Case:
     name: str
-    source: object      # a path below shared/data, Sampled, or Made
+    source: object      # a path below shared/data, Sampled, Scanned, or Made
     truth: str = None   # a path below shared/data
     cloud: bool = True  # judge against the input as a cloud
     options: list = field(default_factory=list)  # of rangezip mesh
@@ -112,6 +125,12 @@ def decimated(name, mesh, points, seed, tolerance, finish='full'):
     full finish, and by quad-trees over the patches of the scans with the others."""
     return Case(name, Sampled(mesh, points, seed), options=['--finish', finish, '--decimate', str(tolerance)],
                 bounds=CLEAN + CLOSED + [Bound('faces_over_whole', '<=', 0.4), Bound('rms_over_whole', '<=', 1.05)])
+
+
+def raw(name, mesh, seed, scanner, *bounds):
+    """Merged raw scans: one clean component, with borders only where no scan has seen anything."""
+    return Case(name, Scanned(mesh, seed, scanner),
+                bounds=sum(bounds, CLEAN + NO_SMALL_ANGLES + [Bound('cloud_within_05', '>=', 0.998)]))
 
 
 CASES = [
@@ -161,6 +180,11 @@ CASES = [
     Case('igea 1.4 M', Sampled('mesh/igea.ply', 1_400_000, 5), bounds=CLEAN + CLOSED + NO_SMALL_ANGLES + cost(20, 700)),
     Case('dragon 1.4 M', Sampled('range/dragon_vrip_res2.ply', 1_400_000, 6),
          bounds=CLEAN + NO_SMALL_ANGLES + cost(20, 700)),
+    raw('dragon raw, 1 M', 'range/dragon_vrip_res2.ply', 8, raw_scans.Scanner(scans=22, pixels=540)),
+    raw('igea raw', 'mesh/igea.ply', 7, raw_scans.Scanner(), CLOSED, [Bound('genus', '==', 0)]),
+    raw('igea raw, out of place', 'mesh/igea.ply', 10,
+        raw_scans.Scanner(pixels=400, shift=0.001, turn=0.12, noise=0.0005, flying=0.4),
+        CLOSED, [Bound('genus', '==', 0)]),
     at_triangles('igea, quadrics', 'mesh/igea.ply', 3, 60_000),
     at_triangles('rocker-arm, quadrics', 'mesh/rocker-arm.obj', 21, 10_000),
     at_triangles('fandisk, quadrics', 'mesh/fandisk.obj', 22, 6_000),
@@ -228,6 +252,13 @@ class Bench:
                                 str(case.source.points), '--seed', str(case.source.seed),
                                 '--noise', str(case.source.noise), '--truth', truth],
                                check=True)
+            return cloud, truth, cloud
+        if isinstance(case.source, Scanned):
+            cloud, truth = self.path(case.name, '_in.ply'), self.path(case.name, '_truth.ply')
+            write_ply = sys.modules['sample'].write_ply
+            vertices, faces = sys.modules['sample'].unit_mesh(os.path.join(self.data, case.source.mesh))
+            write_ply(cloud, raw_scans.merged_scans(vertices, faces, case.source.scanner, case.source.seed))
+            write_ply(truth, vertices, faces)
             return cloud, truth, cloud
         if isinstance(case.source, Made):
             cloud, truth = self.path(case.name, '_in.ply'), self.path(case.name, '_truth.ply')

@@ -39,7 +39,8 @@ constexpr double kPart = 8.0;
 constexpr double kOffMesh = 0.42;
 constexpr double kOffMeshPerNoise = 2.0;
 constexpr double kInTheWay = 0.9;
-constexpr double kSmooth = 1.3;        ///< in h: around a point, in which the others tell its plane
+constexpr double kSmooth = 1.3;  ///< in h: around a point, in which the others tell its plane
+constexpr int kSmoothRounds = 3;
 constexpr double kHardlyNoise = 0.08;  ///< in h: less is left in
 constexpr std::size_t kNoiseSamples = 1000;
 constexpr std::size_t kMinPiece = 12;  ///< faces; less is a shred in the air
@@ -155,11 +156,14 @@ double noise_of(std::span<const Vec3> points, const PointGrid& cloud, double h) 
   return *quarter;
 }
 
-/// Moves each onto the plane through the points around it.
+/// Moves each onto the plane through the points around it, more than once: the points around its
+/// foot are not those around it.
 void smooth(std::vector<Vec3>& points, const PointGrid& cloud, double h) {
   parallel_for(points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (const auto plane = plane_at(points[i], cloud, kSmooth * h)) points[i] = plane->foot;
+      for (int round = 0; round < kSmoothRounds; ++round) {
+        if (const auto plane = plane_at(points[i], cloud, kSmooth * h)) points[i] = plane->foot;
+      }
     }
   });
 }
@@ -178,17 +182,22 @@ std::size_t regrow(TriangleMesh& mesh, std::span<const Vec3> points, const Point
   if (mesh.empty()) return 0;
   const double noise = noise_of(points, grid, h);
   if (noise > kMostNoise * h) return 0;
-  const std::vector<Vec3> left_out =
-      left_out_points(points, mesh, std::max(kLeftOut * h, kLeftOutPerNoise * noise));
+  const double distance = std::max(kLeftOut * h, kLeftOutPerNoise * noise);
+  std::vector<Vec3> left_out = left_out_points(points, mesh, distance);
+  const bool is_noisy = noise > kHardlyNoise * h;
+  if (is_noisy) {
+    smooth(left_out, grid, h);
+    left_out = points_off(left_out, mesh, distance);
+  }
   if (left_out.size() < kMinPoints) return 0;
   const PointGrid places(left_out, region_of(mesh, h), 0.5 * kPlace * h);
-  const std::vector<Vec3> near = points_near(points, places, kPlace * h);
+  std::vector<Vec3> near = points_near(points, places, kPlace * h);
+  if (is_noisy) smooth(near, grid, h);
   const double off_mesh = std::max(kOffMesh * h, kOffMeshPerNoise * noise);
   clear_way(mesh, points_off(near, mesh, off_mesh), places, grid, h);
   FacePart part = part_near(mesh, places, kPart * h);
   if (part.mesh.empty()) return 0;  // they are of another body, inside of this one
-  std::vector<Vec3> missing = points_off(near, part.mesh, off_mesh);
-  if (noise > kHardlyNoise * h) smooth(missing, grid, h);
+  const std::vector<Vec3> missing = points_off(near, part.mesh, off_mesh);
   const std::size_t count = advance_front(part.mesh, missing, h, progress);
   put_back(std::move(part), mesh);
   clean_topology(mesh);

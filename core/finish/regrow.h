@@ -19,8 +19,9 @@ namespace rangezip {
 /// points up to 4 h from those left out, and joins what it meets. So the way there leads over the
 /// surface, not through the air, and of holes only those without points are left.
 ///
-/// Points with noise of over 0.08 h are first moved onto the plane through those within 1.3 h; with
-/// over 0.3 h nothing is done, since what is left out is noise, too.
+/// Points with noise of over 0.08 h are first moved, three times, onto the plane through those
+/// within 1.3 h, and only what the mesh leaves out even then counts: layers that scans out of place
+/// make are none. With over 0.3 h nothing is done, since what is left out is noise, too.
 /// @param points the cloud
 /// @param grid of the same points
 /// @param pixel_size h, model units; positive

@@ -11,6 +11,9 @@
 #include "core/base/error.h"
 #include "core/base/spread.h"
 #include "core/base/symmetric_eigen.h"
+#include "core/plan/cloud_noise.h"
+#include "core/plan/own_sheet.h"
+#include "core/plan/slab_index.h"
 
 namespace rangezip {
 
@@ -19,12 +22,9 @@ namespace {
 constexpr std::size_t kQueries = 300;
 constexpr std::size_t kNeighbours = 16;
 
-constexpr double kPixelsPerNoise = 4.0;  // a step of one pixel is then rarely noise
-
-/// Heights over a plane are those of two sheets if the gap between them is so many times as wide
-/// as their spread on either side of it. Of noise fewer than one neighbourhood in a hundred has
-/// such a gap.
-constexpr double kSheetGap = 4.0;
+constexpr double kPixelsPerNearNoise = 4.0;  // a step of one pixel is then rarely noise
+/// However many points a pixel has: they fill it across the surface, too.
+constexpr double kPixelsPerNoise = 2.5;
 
 /// Times the median: wider spacings may be of outliers.
 constexpr double kUsual = 1.5;
@@ -121,44 +121,6 @@ std::vector<Neighbourhood> choose_queries(std::span<const Vec3> points) {
   return {centers.begin(), centers.end()};
 }
 
-/// For slabs across the x axis, the queries whose neighbours may lie in each. The slabs share the
-/// middle of the queries evenly; the first and last one reach to infinity.
-class SlabIndex {
- public:
-  /// @pre `queries` are sorted by x, as choose_queries() leaves them
-  explicit SlabIndex(std::span<const Neighbourhood> queries) {
-    const std::size_t margin = queries.size() / 32;
-    lower_ = queries[margin].center().x;
-    const double width = queries[queries.size() - 1 - margin].center().x - lower_;
-    slabs_per_unit_ = width > 0.0 ? kSlabs / width : 0.0;
-    if (!std::isfinite(slabs_per_unit_)) slabs_per_unit_ = 0.0;
-
-    for (std::uint32_t q = 0; q < queries.size(); ++q) {
-      const double x = queries[q].center().x;
-      const double radius = queries[q].radius();
-      for (std::size_t s = slab_of(x - radius); s <= slab_of(x + radius); ++s) {
-        queries_of_slab_[s].push_back(q);
-      }
-    }
-  }
-
-  [[nodiscard]] std::span<const std::uint32_t> queries_near(double x) const {
-    return queries_of_slab_[slab_of(x)];
-  }
-
- private:
-  static constexpr int kSlabs = 1024;
-
-  [[nodiscard]] std::size_t slab_of(double x) const {
-    const double slab = (x - lower_) * slabs_per_unit_;
-    return slab > 0.0 ? static_cast<std::size_t>(std::min(slab, kSlabs - 1.0)) : 0;
-  }
-
-  double lower_ = 0.0;
-  double slabs_per_unit_ = 0.0;
-  std::array<std::vector<std::uint32_t>, kSlabs> queries_of_slab_;
-};
-
 /// Fills the neighbourhoods: a first look at few points bounds their radii, then each of all
 /// points is offered only to those that it may be near to.
 void find_neighbours(std::span<const Vec3> points, std::vector<Neighbourhood>& queries) {
@@ -166,9 +128,13 @@ void find_neighbours(std::span<const Vec3> points, std::vector<Neighbourhood>& q
     for (Neighbourhood& query : queries)
       query.offer(points[index]);
   }
-  const SlabIndex slabs(queries);
+  std::vector<SlabIndex::Ball> balls;
+  balls.reserve(queries.size());
+  for (const Neighbourhood& query : queries)
+    balls.push_back({query.center(), query.radius()});
+  const SlabIndex slabs(balls);
   for (const Vec3& point : points) {
-    for (const std::uint32_t q : slabs.queries_near(point.x))
+    for (const std::uint32_t q : slabs.balls_near(point.x))
       queries[q].offer(point);
   }
 }
@@ -182,80 +148,20 @@ std::vector<Vec3> offsets_of(const Neighbourhood& neighbourhood, std::size_t nea
   return offsets;
 }
 
-/// The sum of the outer products of some places, about their mean.
-Mat3 scatter_of(std::span<const Vec3> places) {
-  Vec3 mean{0.0};
-  for (const Vec3& place : places)
-    mean += place;
-  mean /= static_cast<double>(places.size());
-  Mat3 scatter{0.0};
-  for (const Vec3& place : places)
-    scatter += glm::outerProduct(place - mean, place - mean);
-  return scatter;
-}
-
 /// The spacing that a neighbourhood shows, if its places fill a disc around the centre.
 double spacing_of(const Neighbourhood& neighbourhood) {
   const auto count = static_cast<double>(neighbourhood.places().size());
   return neighbourhood.farthest() * std::sqrt(std::numbers::pi / count);
 }
 
-/// Places in the order of their heights along a normal, parted at the widest gap.
-struct TwoSheets {
-  Vec3 normal{0.0};
-  std::vector<Vec3> places;
-  std::size_t cut = 1;  ///< the first one past the gap
-
-  [[nodiscard]] double height(std::size_t i) const { return glm::dot(places[i], normal); }
-  [[nodiscard]] double gap_before(std::size_t i) const { return height(i) - height(i - 1); }
-  [[nodiscard]] std::span<const Vec3> lower() const { return std::span(places).first(cut); }
-  [[nodiscard]] std::span<const Vec3> upper() const { return std::span(places).subspan(cut); }
-};
-
-TwoSheets part_along(const Vec3& normal, std::span<const Vec3> places) {
-  TwoSheets parted{normal, {places.begin(), places.end()}};
-  std::sort(parted.places.begin(), parted.places.end(), [&](const Vec3& a, const Vec3& b) {
-    return glm::dot(a, normal) < glm::dot(b, normal);
-  });
-  for (std::size_t i = 2; i < parted.places.size(); ++i) {
-    if (parted.gap_before(i) > parted.gap_before(parted.cut)) parted.cut = i;
-  }
-  return parted;
-}
-
-/// The places that lie on the centre's side of a wall: all, or those on this side of a gap along
-/// the normal that is at least a spacing wide, and so wide that neither noise nor a bend leaves it.
-/// @param places as offsets_of() gives them
-std::vector<Vec3> own_sheet(std::span<const Vec3> places, double spacing) {
-  constexpr std::size_t kNearest = 7;  // the centre and its first ring: of one sheet, mostly
-  constexpr int kRounds = 4;           // both sheets tell the normal, better each time
-  const auto copy_of = [](std::span<const Vec3> part) {
-    return std::vector<Vec3>(part.begin(), part.end());
-  };
-  if (places.size() <= kNearest) return copy_of(places);
-  Mat3 scatter = scatter_of(places.first(kNearest));
-  TwoSheets parted;
-  for (int round = 0; round < kRounds; ++round) {
-    parted = part_along(eigen_of_symmetric(scatter).vectors[0], places);
-    scatter = scatter_of(parted.lower()) + scatter_of(parted.upper());
-  }
-  const double squares = glm::dot(parted.normal, scatter * parted.normal);
-  const double spread = std::sqrt(std::max(0.0, squares) / static_cast<double>(places.size()));
-  if (parted.gap_before(parted.cut) < std::max(spacing, kSheetGap * spread)) return copy_of(places);
-  const bool is_center_below = parted.height(parted.cut) > 0.0;
-  return copy_of(is_center_below ? parted.lower() : parted.upper());
-}
-
-/// RMS distance of a neighbourhood's places and centre from their best plane, in an unbiased
-/// estimate (the plane takes up three degrees of freedom), without those on the other side of a
-/// wall; 0 where that says nothing.
-double distance_from_plane(const Neighbourhood& neighbourhood) {
-  if (neighbourhood.places().empty()) return 0.0;
-  const std::vector<Vec3> sheet = own_sheet(
-      offsets_of(neighbourhood, neighbourhood.places().size()), spacing_of(neighbourhood));
-  if (sheet.size() <= 3) return 0.0;
-  const double squares = std::max(0.0, eigen_of_symmetric(scatter_of(sheet)).values[0]);
-  return std::sqrt(squares / static_cast<double>(sheet.size() - 3));
+/// What a neighbourhood's places tell of the noise; nothing if there are none.
+NoisePlace noise_place(const Neighbourhood& neighbourhood) {
+  NoisePlace place{.center = neighbourhood.center(), .radius = neighbourhood.farthest()};
+  if (neighbourhood.places().empty()) return place;
+  place.wall = spacing_of(neighbourhood);
+  const std::vector<Vec3> offsets = offsets_of(neighbourhood, neighbourhood.places().size());
+  place.noise = distance_from_plane(offsets, place.wall);
+  return place;
 }
 
 /// A place on a contour, as its nearest neighbours show it.
@@ -327,6 +233,13 @@ double quantile_of_surface(const std::vector<double>& spacings, const std::vecto
   return median;
 }
 
+std::vector<double> noises_of(std::span<const NoisePlace> places) {
+  std::vector<double> noises;
+  for (const NoisePlace& place : places)
+    noises.push_back(place.noise);
+  return noises;
+}
+
 double quantile(std::vector<double> values, double share) {
   const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + at, values.end());
@@ -355,6 +268,10 @@ std::optional<Spacing> contour_spacing(std::span<const Vec3> points,
                  .gap = 0.5 * (quantile(gaps, 0.5) + quantile(gaps, 0.75))};
 }
 
+double size_for_noise(const Spacing& spacing) {
+  return std::max(kPixelsPerNearNoise * spacing.near_noise, kPixelsPerNoise * spacing.noise);
+}
+
 }  // namespace
 
 Spacing estimate_spacing(std::span<const Vec3> points) {
@@ -363,15 +280,18 @@ Spacing estimate_spacing(std::span<const Vec3> points) {
   find_neighbours(points, queries);
 
   std::vector<double> spacings;
-  std::vector<double> noises;
+  std::vector<NoisePlace> places;
   for (const Neighbourhood& query : queries) {
     spacings.push_back(spacing_of(query));
-    noises.push_back(distance_from_plane(query));
+    places.push_back(noise_place(query));
   }
+  const std::vector<double> noises = noises_of(places);
   Spacing spacing{.median = quantile(spacings, 0.5), .quantile75 = quantile(spacings, 0.75)};
   spacing.sparse = quantile_of_surface(spacings, noises, spacing.median, 0.75);
   if (const auto contours = contour_spacing(points, queries)) spacing = *contours;
-  spacing.noise = quantile(noises, 0.5);
+  spacing.near_noise = quantile(noises, 0.5);
+  widen_over_noise(points, places);
+  spacing.noise = quantile(noises_of(places), 0.5);
   spacing.diagonal = robust_bounds(points).diagonal();
   return spacing;
 }
@@ -380,7 +300,7 @@ double closed_sheet_pixel_size(const Spacing& spacing) {
   constexpr double kPixelsPerSpacing = 2.2;  // about five points in a pixel
   constexpr double kPixelsPerGap = 1.5;      // where gaps are wider than usual, too
   return std::max({kPixelsPerSpacing * 0.5 * (spacing.median + spacing.quantile75),
-                   kPixelsPerNoise * spacing.noise, kPixelsPerGap * spacing.gap});
+                   size_for_noise(spacing), kPixelsPerGap * spacing.gap});
 }
 
 bool is_uneven(const Spacing& spacing) {
@@ -394,7 +314,7 @@ double pixel_size_from_spacing(const Spacing& spacing) {
   constexpr double kCoarsest = 4.0;  // local_sizes() are down to a quarter
   const double closed = closed_sheet_pixel_size(spacing);
   const double finest = std::max({kFewestPerSpacing * 0.5 * (spacing.median + spacing.quantile75),
-                                  kPixelsPerNoise * spacing.noise, spacing.gap});
+                                  size_for_noise(spacing), spacing.gap});
   const double usual = std::min(closed, std::max(finest, spacing.diagonal / kPixelsAcross));
   if (!is_uneven(spacing)) return usual;
   return std::clamp(kFewestPerSpacing * spacing.sparse, usual, kCoarsest * usual);

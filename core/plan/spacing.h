@@ -15,7 +15,8 @@ struct Spacing {
   double quantile75 = 0.0;  ///< three quarters of the cloud are at least this dense
   double sparse = 0.0;      ///< three quarters of the surface are at least this dense
   double gap = 0.0;         ///< between contours, if the cloud is made of such; else 0
-  double noise = 0.0;       ///< median distance (RMS) of points from their neighbours' plane
+  double near_noise = 0.0;  ///< median distance (RMS) of points from their neighbours' plane
+  double noise = 0.0;       ///< the same of all points as near as the noise is wide
   double diagonal = 0.0;    ///< of robust_bounds(), model units
 };
 
@@ -31,12 +32,13 @@ struct Spacing {
 /// far as the nearer one; its spacings are sqrt(gap * step), `step` from point to point on a slice.
 /// The noise is measured against a plane, so curvature counts as noise where the surface bends
 /// within a few spacings; what lies on the other side of a wall, at least a spacing thick, does
-/// not.
+/// not. Where it is wider than those 16 reach, more points tell it (core/plan/cloud_noise.h).
 /// @throws InvalidArgument if fewer than three distinct points are given.
 [[nodiscard]] Spacing estimate_spacing(std::span<const Vec3> points);
 
 /// The pixel side at which a cloud's sheet has hardly a gap: 2.2 times the mean of median and 75 %
-/// spacing, at least 4 noise, and at least 1.5 gaps between contours.
+/// spacing, at least 4 times the noise among neighbours and 2.5 times that of all points, and at
+/// least 1.5 gaps between contours.
 [[nodiscard]] double closed_sheet_pixel_size(const Spacing& spacing);
 
 /// Whether a quarter of the surface or more is over twice as sparse as the median.

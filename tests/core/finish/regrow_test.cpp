@@ -168,6 +168,33 @@ TEST_CASE("regrow leaves a hole that holds no points, and what lies far from poi
   CHECK(mesh.positions == before.positions);
 }
 
+TEST_CASE(
+    "regrow does not take a second layer of points, as scans out of place leave it, for surface",
+    "[finish]") {
+  const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
+  CAPTURE(seed);
+  std::mt19937_64 engine(seed);
+  constexpr double kHalf = 0.25 * kSide;
+  std::vector<Vec3> points;
+  add_sheet_points(points, 0.0, engine);
+  for (const double height : {0.5 * kH, kH}) {
+    std::vector<Vec3> layer;
+    add_sheet_points(layer, height, engine);
+    std::erase_if(layer,
+                  [&](const Vec3& p) { return std::max(std::abs(p.x), std::abs(p.y)) > kHalf; });
+    points.insert(points.end(), layer.begin(), layer.end());
+  }
+  for (Vec3& p : points)
+    p.z += 0.2 * kH * (uniform(engine, -1.0, 1.0) + uniform(engine, -1.0, 1.0));
+  TriangleMesh mesh = shapes::square_sheet(kSide);  // in the middle on the top layer
+  for (Vec3& p : mesh.positions)
+    p.z = std::max(std::abs(p.x), std::abs(p.y)) < kHalf ? kH : 0.0;
+  REQUIRE(left_out_points(points, mesh, 0.7 * kH).size() > 40);
+  const TriangleMesh before = mesh;
+  REQUIRE(regrow(mesh, points, grid_of(points), kH) == 0);
+  CHECK(mesh.triangles == before.triangles);
+}
+
 TEST_CASE("regrow leaves points alone that lie far from any face", "[finish]") {
   const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
   CAPTURE(seed);

@@ -1,5 +1,6 @@
 #include "core/plan/spacing.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -107,6 +108,27 @@ TEST_CASE("estimate_spacing measures noise across the surface") {
   CHECK(spacing.noise == Approx(sigma).epsilon(0.15));
 }
 
+TEST_CASE("estimate_spacing measures noise that is wider than the nearest points reach") {
+  // Of that noise the nearest 16 points fill a ball that shows hardly half of it.
+  const std::size_t count = 160'000;
+  const double step = 1.0 / std::sqrt(static_cast<double>(count));
+  for (const double sigma : {2.0 * step, 4.0 * step, 8.0 * step}) {
+    CAPTURE(sigma / step);
+    shapes::Random random(11);
+    std::vector<Vec3> points;
+    for (std::size_t i = 0; i < count; ++i) {
+      double height = 0.0;  // nearly Gaussian
+      for (int k = 0; k < 12; ++k)
+        height += sigma * random.between(-0.5, 0.5);
+      points.emplace_back(random.between(0.0, 1.0), random.between(0.0, 1.0), height);
+    }
+    const Spacing spacing = estimate_spacing(rotated(std::move(points)));
+    CHECK(spacing.noise == Approx(sigma).epsilon(0.1));
+    CHECK(spacing.near_noise < 0.75 * sigma);
+    CHECK(pixel_size_from_spacing(spacing) >= 2.2 * sigma);
+  }
+}
+
 TEST_CASE("estimate_spacing does not take the other side of a thin wall for noise") {
   // Two sheets of random points: among 16 neighbours, in a disc of a radius of 2.3 spacings, some
   // are on the other sheet.
@@ -131,9 +153,12 @@ TEST_CASE("estimate_spacing does not take the other side of a thin wall for nois
 TEST_CASE(
     "pixel_size_from_spacing closes the sheet of a dense cloud and keeps the shape of a sparse "
     "one") {
-  const auto size = [](double diagonal, double noise) {
-    return pixel_size_from_spacing(
-        {.median = 1.0, .quantile75 = 1.5, .noise = noise, .diagonal = diagonal});
+  const auto size = [](double diagonal, double noise, double wide_noise = 0.0) {
+    return pixel_size_from_spacing({.median = 1.0,
+                                    .quantile75 = 1.5,
+                                    .near_noise = noise,
+                                    .noise = std::max(noise, wide_noise),
+                                    .diagonal = diagonal});
   };
   const double mean = 1.25;
   CHECK(size(1000.0, 0.0) == Approx(2.2 * mean));
@@ -141,6 +166,7 @@ TEST_CASE(
   CHECK(size(10.0, 0.0) == Approx(1.3 * mean));
   CHECK(size(1000.0, 2.0) == 8.0);  // four times the noise, dense or sparse
   CHECK(size(10.0, 2.0) == 8.0);
+  CHECK(size(1000.0, 2.0, 4.0) == 10.0);  // two and a half times what neighbours do not show
   CHECK(closed_sheet_pixel_size({.median = 1.0, .quantile75 = 1.5, .diagonal = 10.0}) ==
         Approx(2.2 * mean));
 }
