@@ -206,6 +206,9 @@ CASES = [
       for deep in ('slot', 'cavity', 'drilled') for width in (2, 3, 6)),
     *(made(f'perforated {width}', [Bound('components', '==', 1), Bound('boundary_loops', '==', 10)], RIGHT_SIDE_OUT)
       for width in (6, 8, 16)),
+    *(body(f'{sharp} {angle}', 0, [Bound('cloud_within_05', '>=', 0.998)])
+      for sharp in ('lens', 'star') for angle in (25, 40)),
+    made('lens 15'), made('star 15'),
     body('noisy 0.05', 1, RIGHT_SIDE_OUT), body('noisy 0.1', 1, RIGHT_SIDE_OUT), body('noisy 0.2', 1, RIGHT_SIDE_OUT),
     body('contours', 1),
     body('density', 0, [Bound('accuracy_rms', '<=', 0.0001, True)]),

@@ -102,6 +102,31 @@ def trefoil(scale, radius, around=1200, across=120):
     return vertices, np.concatenate([np.stack([a, b, c], -1), np.stack([a, c, d], -1)]).reshape(-1, 3)
 
 
+def lens(radius, degrees):
+    """Two caps of spheres that meet in a sharp rim of that angle."""
+    half = np.radians(degrees / 2)
+    across, height = arc(radius / np.sin(half), 0, half, 100)
+    height = height - height[-1]    # a cap below the plane of the rim
+    return revolved(np.r_[across, across[-2::-1]], np.r_[height, -height[-2::-1]], closed=False)
+
+
+def star(radius, degrees, tips=5, height=60.0):
+    """A prism over a star whose tips have that angle."""
+    part, half = np.pi / tips, np.radians(degrees / 2)
+    inner = radius * np.tan(half) / (np.sin(part) + np.tan(half) * np.cos(part))
+    angle = part * np.arange(2 * tips)
+    reach = np.where(np.arange(2 * tips) % 2 == 0, radius, inner)
+    outline = np.c_[reach * np.cos(angle), reach * np.sin(angle)]
+    count = len(outline)
+    rings = [np.c_[outline, np.full(count, z)] for z in (-height / 2, height / 2)]
+    vertices = np.concatenate(rings + [[[0, 0, -height / 2], [0, 0, height / 2]]])
+    a = np.arange(count)
+    b = (a + 1) % count
+    low, high = np.full(count, 2 * count), np.full(count, 2 * count + 1)
+    return vertices, np.concatenate([np.c_[a, b, b + count], np.c_[a, b + count, a + count],
+                                     np.c_[b, a, low], np.c_[a + count, b + count, high]])
+
+
 class Blocks:
     """A union of boxes, as the faces between full and empty cells of a grid with the boxes' planes.
 
@@ -343,6 +368,8 @@ def make(name):
         'cavity': lambda: drawn(cavity(size), 18),
         'drilled': lambda: drawn(drilled(size), 19, genus=DRILLED),
         'perforated': lambda: drawn(perforated(size), 20),
+        'lens': lambda: drawn(lens(60, size), 21),
+        'star': lambda: drawn(star(60, size), 22),
         'noisy': lambda: drawn(torus(50, 20), 10, genus=1, noise=size / 100),
         'contours': lambda: contours(torus(50, 20), 3.0, 0.5, 11, genus=1),
         'density': lambda: two_densities(box(100, 100, 100), 200_000, 12),
@@ -357,5 +384,6 @@ NAMES = (['sphere', 'torus', 'trefoil', 'bowl'] + ['plate %g' % t for t in (0.3,
          ['spheres %g' % g for g in (0, 0.3, 0.8, 2, 3)] +
          [f'{two} {gap}' for two in ('slabs', 'bars') for gap in (2, 3, 4)] +
          [f'{deep} {width}' for deep in ('slot', 'cavity', 'drilled') for width in (2, 3, 6)] +
-         [f'perforated {width}' for width in (6, 8, 16)] + ['noisy %g' % n for n in (0.05, 0.1, 0.2)] +
+         [f'perforated {width}' for width in (6, 8, 16)] +
+         [f'{sharp} {angle}' for sharp in ('lens', 'star') for angle in (15, 25, 40)] + ['noisy %g' % n for n in (0.05, 0.1, 0.2)] +
          ['contours', 'density', 'density-bumps', 'fingers'])

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/finish/other_wall.h"
 #include "core/finish/unsupported_faces.h"
 
 namespace rangezip {
@@ -15,6 +16,7 @@ constexpr double kSmallPerimeter = 12.0;
 constexpr double kSmoothPerimeter = 30.0;
 /// The cost of judging a loop grows with the square of its edges.
 constexpr std::size_t kMaxEdges = 6000;
+constexpr std::size_t kMaxWallEdges = 300;  ///< longer loops are borders
 /// Mean cosine between the surface beside the loop and the plane across it: below, the surface ends
 /// there. 0 at the end of a tube, -1 at the outline of a terrain, 1 in a plane.
 constexpr double kLeadsInto = 0.25;
@@ -154,29 +156,40 @@ bool is_left_out(const LoopGeometry& loop, const std::vector<Vec3>& positions, c
   return static_cast<double>(shown) >= kShownLoop * static_cast<double>(loop.points.size());
 }
 
+bool is_lost_wall(const std::vector<Vec3>& positions, const CornerTable& table,
+                  const BoundaryLoop& loop, const PointGrid& cloud,
+                  const HoleChoiceOptions& options) {
+  return options.is_sampled && loop.corners.size() <= kMaxWallEdges &&
+         is_other_wall(positions, table, loop, cloud, options.noise, options.pixel_size);
+}
+
 }  // namespace
 
-std::optional<FillShape> choose_fill(const std::vector<Vec3>& positions, const CornerTable& table,
-                                     const BoundaryLoop& loop, bool is_zipped,
-                                     const PointGrid& cloud, const HoleChoiceOptions& options) {
+std::optional<FillChoice> choose_fill(const std::vector<Vec3>& positions, const CornerTable& table,
+                                      const BoundaryLoop& loop, bool is_zipped,
+                                      const PointGrid& cloud, const HoleChoiceOptions& options) {
   const double h = options.pixel_size;
   if (loop.corners.size() > kMaxEdges) return std::nullopt;
   const LoopGeometry geometry = geometry_of(positions, table, loop);
-  if (geometry.perimeter <= kSmallPerimeter * h) return FillShape::smooth;
-  if (is_outline(geometry, positions, table, loop, h)) return std::nullopt;
+  if (geometry.perimeter <= kSmallPerimeter * h) return FillChoice{FillShape::smooth};
+  if (is_outline(geometry, positions, table, loop, h)) {
+    if (!is_lost_wall(positions, table, loop, cloud, options)) return std::nullopt;
+    return FillChoice{FillShape::smooth, true};
+  }
   const CloudEvidence evidence = options.is_sampled ? CloudEvidence{&cloud, h} : CloudEvidence{};
   const HoleFill fill = fill_loop(positions, table, loop, FillShape::smooth, h, evidence);
   const FillInside inside = look_inside(geometry, fill, cloud, h);
-  if (inside.shown == Inside::points) return FillShape::smooth;
+  if (inside.shown == Inside::points) return FillChoice{FillShape::smooth};
   const auto has_gap = [&] { return is_left_out(geometry, positions, fill, cloud, h); };
   if (is_rim(geometry, is_zipped, h) && (!options.is_sampled || has_gap())) return std::nullopt;
-  if (inside.width < options.narrow_width * h) return FillShape::flat;
-  if (!is_zipped) return FillShape::zipped;
+  if (inside.width < options.narrow_width * h) return FillChoice{FillShape::flat};
+  if (!is_zipped) return FillChoice{FillShape::zipped};
   const bool is_to_close = geometry.perimeter <= options.max_hole_perimeter * h;
   if (!is_to_close && options.is_sampled && has_gap()) return std::nullopt;
   const double limit = std::max(options.max_hole_perimeter, kLargePerimeter) * h;
   if (geometry.perimeter > limit && inside.width > kLargeWidth * limit) return std::nullopt;
-  return geometry.perimeter <= kSmoothPerimeter * h ? FillShape::smooth : FillShape::flat;
+  return FillChoice{geometry.perimeter <= kSmoothPerimeter * h ? FillShape::smooth
+                                                               : FillShape::flat};
 }
 
 Inside inside_of_fill(const std::vector<Vec3>& positions, const CornerTable& table,

@@ -14,12 +14,19 @@ struct HoleChoiceOptions {
   double max_hole_perimeter = 0.0;  ///< in h, of holes to close although no points lie there
   double narrow_width = 3.0;        ///< in h, of cracks
   bool is_sampled = false;          ///< the cloud has points wherever the surface was seen
+  double noise = 0.0;               ///< of these, standard deviation, model units
+};
+
+struct FillChoice {
+  FillShape shape = FillShape::smooth;
+  bool is_wall = false;  ///< of something thin: each face around the loop that goes is a loss
 };
 
 /// Whether a boundary loop is a gap in what was scanned, and then how to close it, or the border of
 /// an open surface, which stays (no value):
 /// - a small loop (up to 12 h) is closed;
-/// - the outline of a sheet stays: a fill would fold back over the sheet;
+/// - the outline of a sheet stays: a fill would fold back over the sheet; unless the cloud shows
+///   that it is another wall (core/finish/other_wall.h);
 /// - a loop with points of the cloud inside is closed whatever its size;
 /// - a round rim (longer than 20 h) where the surface ends without leading into the hole, as at the
 ///   end of a tube, stays unless points are all over the fill;
@@ -31,11 +38,11 @@ struct HoleChoiceOptions {
 /// Loops of more than 6000 edges always stay.
 /// @param is_zipped whether loops have been zipped before
 /// @param cloud points of the cloud; may be empty: no evidence
-[[nodiscard]] std::optional<FillShape> choose_fill(const std::vector<Vec3>& positions,
-                                                   const CornerTable& table,
-                                                   const BoundaryLoop& loop, bool is_zipped,
-                                                   const PointGrid& cloud,
-                                                   const HoleChoiceOptions& options);
+[[nodiscard]] std::optional<FillChoice> choose_fill(const std::vector<Vec3>& positions,
+                                                    const CornerTable& table,
+                                                    const BoundaryLoop& loop, bool is_zipped,
+                                                    const PointGrid& cloud,
+                                                    const HoleChoiceOptions& options);
 
 /// What a cloud shows inside of a hole, where a fill lies more than 1.5 h away from its loop.
 enum class Inside {

@@ -4,19 +4,17 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/base/parallel.h"
-#include "core/base/spread.h"
-#include "core/base/symmetric_eigen.h"
 #include "core/finish/advance_front.h"
 #include "core/finish/clean_topology.h"
 #include "core/finish/components.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/face_part.h"
 #include "core/finish/left_out_points.h"
+#include "core/finish/local_plane.h"
 #include "core/finish/unsupported_faces.h"
 #include "core/mesh/coverage.h"
 
@@ -39,10 +37,8 @@ constexpr double kPart = 8.0;
 constexpr double kOffMesh = 0.42;
 constexpr double kOffMeshPerNoise = 2.0;
 constexpr double kInTheWay = 0.9;
-constexpr double kSmooth = 1.3;  ///< in h: around a point, in which the others tell its plane
 constexpr int kSmoothRounds = 3;
 constexpr double kHardlyNoise = 0.08;  ///< in h: less is left in
-constexpr std::size_t kNoiseSamples = 1000;
 constexpr std::size_t kMinPiece = 12;  ///< faces; less is a shred in the air
 constexpr std::size_t kGrain = 256;
 
@@ -119,50 +115,14 @@ void clear_way(TriangleMesh& mesh, std::span<const Vec3> off, const PointGrid& l
   drop_shreds(mesh);
 }
 
-struct LocalPlane {
-  Vec3 foot{0.0};          ///< of the place
-  double thickness = 0.0;  ///< RMS distance of the points from the plane
-};
-
-std::optional<LocalPlane> plane_at(const Vec3& place, const PointGrid& cloud, double radius) {
-  constexpr double kFewest = 6.0;
-  Vec3 sum(0.0);
-  Mat3 moments(0.0);
-  double count = 0.0;
-  cloud.for_each_near(place, radius, [&](const Vec3& offset) {
-    if (glm::dot(offset, offset) > radius * radius) return;
-    sum += offset;
-    moments += glm::outerProduct(offset, offset);
-    count += 1.0;
-  });
-  if (count < kFewest) return std::nullopt;
-  const Vec3 mean = sum / count;
-  const SymmetricEigen eigen = eigen_of_symmetric(moments - glm::outerProduct(mean, sum));
-  const Vec3 normal = eigen.vectors[0];
-  return LocalPlane{place + glm::dot(mean, normal) * normal,
-                    std::sqrt(std::max(0.0, eigen.values[0]) / count)};
-}
-
-/// Of the points in places: a quarter of them tell, since at creases clean points lie on no plane.
-double noise_of(std::span<const Vec3> points, const PointGrid& cloud, double h) {
-  std::vector<double> thickness;
-  for (const std::size_t i : spread_indices(points.size(), kNoiseSamples)) {
-    if (const auto plane = plane_at(points[i], cloud, kSmooth * h))
-      thickness.push_back(plane->thickness);
-  }
-  if (thickness.empty()) return 0.0;
-  const auto quarter = thickness.begin() + static_cast<std::ptrdiff_t>(thickness.size() / 4);
-  std::nth_element(thickness.begin(), quarter, thickness.end());
-  return *quarter;
-}
-
 /// Moves each onto the plane through the points around it, more than once: the points around its
 /// foot are not those around it.
 void smooth(std::vector<Vec3>& points, const PointGrid& cloud, double h) {
   parallel_for(points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       for (int round = 0; round < kSmoothRounds; ++round) {
-        if (const auto plane = plane_at(points[i], cloud, kSmooth * h)) points[i] = plane->foot;
+        if (const auto plane = plane_at(points[i], cloud, kPlaneRadius * h))
+          points[i] = plane->foot;
       }
     }
   });

@@ -13,8 +13,10 @@
 #include "core/finish/bridge_loops.h"
 #include "core/finish/clean_topology.h"
 #include "core/finish/corner_table.h"
+#include "core/finish/ear_fill.h"
 #include "core/finish/hole_choice.h"
 #include "core/finish/join_loops.h"
+#include "core/finish/local_plane.h"
 #include "core/finish/verified_fills.h"
 #include "core/mesh/self_intersection.h"
 
@@ -31,6 +33,9 @@ constexpr int kGentleRounds = 4;
 constexpr std::size_t kAroundObstacle = 2;
 /// In h: loops up to this that cannot be closed otherwise are zipped.
 constexpr double kLongestZipped = 60.0;
+
+constexpr int kLastRounds = 6;              ///< of {ears, widen what is left}
+constexpr std::size_t kNoisePoints = 2000;  ///< that tell it
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
@@ -111,42 +116,58 @@ std::vector<std::uint8_t> unfilled_vertices(const TriangleMesh& mesh, const Corn
                                             const VerifiedFills& fills, bool is_gentle) {
   std::vector<std::uint8_t> unfilled(mesh.positions.size(), 0);
   std::vector<std::uint8_t> is_obstructed(mesh.positions.size(), 0);
-  if (is_gentle) {
-    for (const std::uint32_t v : fills.obstructed)
-      is_obstructed[v] = 1;
-  }
+  for (const std::uint32_t v : fills.obstructed)
+    is_obstructed[v] = 1;
   const std::vector<std::uint8_t> none(mesh.positions.size(), 0);
   for (const std::size_t i : fills.rejected) {
     const std::vector<std::uint32_t> loop = vertices_of(requests[i].loop, table);
     const bool is_shown = requests[i].shape == FillShape::smooth;  // by points, if it is long
-    mark_obstructed(loop, is_shown && loop.size() > kLongLoop ? is_obstructed : none, unfilled);
+    const bool is_spared = is_gentle && is_shown && loop.size() > kLongLoop;
+    mark_obstructed(loop, is_spared || requests[i].is_gentle ? is_obstructed : none, unfilled);
   }
   return unfilled;
+}
+
+HoleChoiceOptions choice_options(const PointGrid& cloud, const FinishOptions& options) {
+  const double h = options.pixel_size;
+  HoleChoiceOptions choice{.pixel_size = h,
+                           .max_hole_perimeter = options.max_hole_perimeter,
+                           .narrow_width = options.narrow_width,
+                           .is_sampled = !cloud.empty() && options.gap == 0.0};
+  if (choice.is_sampled) choice.noise = noise_of(cloud.points(kNoisePoints), cloud, h);
+  return choice;
+}
+
+/// Which loops are to be closed, and how.
+std::vector<FillRequest> requests_for(const TriangleMesh& mesh, const CornerTable& table,
+                                      std::vector<BoundaryLoop> loops, bool is_zipped,
+                                      const PointGrid& cloud, const HoleChoiceOptions& choice) {
+  std::vector<std::optional<FillChoice>> choices(loops.size());
+  parallel_for(loops.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      choices[i] = choose_fill(mesh.positions, table, loops[i], is_zipped, cloud, choice);
+  });
+  std::vector<FillRequest> requests;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (choices[i])
+      requests.push_back({std::move(loops[i]), choices[i]->shape, choices[i]->is_wall});
+  }
+  return requests;
 }
 
 /// @param round the first is 0
 /// @param is_hindered of vertices: their loops are not filled in this round; empty: none
 FillOutcome fill(TriangleMesh& mesh, int round, const std::vector<std::uint8_t>& is_hindered,
-                 const PointGrid& cloud, const FinishOptions& options, FinishReport& report) {
+                 const PointGrid& cloud, const HoleChoiceOptions& choice, FinishReport& report) {
   const bool is_zipped = round > 0;
   const CornerTable table(mesh.triangles, mesh.positions.size());
   std::vector<BoundaryLoop> loops = boundary_loops(table);
   const std::vector<BoundaryLoop> hindered = hindered_among(loops, table, is_hindered);
-  const HoleChoiceOptions choice{options.pixel_size, options.max_hole_perimeter,
-                                 options.narrow_width, !cloud.empty() && options.gap == 0.0};
-  std::vector<std::optional<FillShape>> shapes(loops.size());
-  parallel_for(loops.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      shapes[i] = choose_fill(mesh.positions, table, loops[i], is_zipped, cloud, choice);
-    }
-  });
-  std::vector<FillRequest> requests;
-  for (std::size_t i = 0; i < loops.size(); ++i) {
-    if (shapes[i]) requests.push_back({std::move(loops[i]), *shapes[i]});
-  }
-  const double h = options.pixel_size;
+  const std::vector<FillRequest> requests =
+      requests_for(mesh, table, std::move(loops), is_zipped, cloud, choice);
+  const double h = choice.pixel_size;
   const VerifiedFillOptions fill_options{
-      h, options.narrow_width * h, kLongestZipped * h,
+      h, choice.narrow_width * h, kLongestZipped * h,
       choice.is_sampled ? CloudEvidence{&cloud, h} : CloudEvidence{}};
   const VerifiedFills fills = fill_verified(mesh, table, requests, fill_options);
   report.filled_holes += fills.filled_holes;
@@ -172,11 +193,45 @@ void widen(TriangleMesh& mesh, const std::vector<std::uint8_t>& vertices) {
   });
 }
 
+/// The loops that are to be closed, of those that have been zipped before.
+std::vector<BoundaryLoop> loops_left(const TriangleMesh& mesh, const CornerTable& table,
+                                     const PointGrid& cloud, const HoleChoiceOptions& choice) {
+  std::vector<BoundaryLoop> loops;
+  for (FillRequest& request : requests_for(mesh, table, boundary_loops(table), true, cloud, choice))
+    loops.push_back(std::move(request.loop));
+  return loops;
+}
+
+/// Closes ear by ear what all rounds have left, if that closes all of it: around what is left of a
+/// loop a ring of faces goes, which is a loss where a loop stays open.
+void fill_the_last(TriangleMesh& mesh, const PointGrid& cloud, const HoleChoiceOptions& choice,
+                   FinishReport& report) {
+  const std::vector<Triangle> before = mesh.triangles;
+  std::size_t faces = 0;
+  for (int round = 0; round < kLastRounds; ++round) {
+    const CornerTable table(mesh.triangles, mesh.positions.size());
+    const EarFills fills =
+        fill_by_ears(mesh, table, loops_left(mesh, table, cloud, choice), choice.pixel_size);
+    faces += fills.faces;
+    if (fills.left.empty()) {
+      report.filled_faces += faces;
+      return;
+    }
+    std::vector<std::uint8_t> unfilled(mesh.positions.size(), 0);
+    for (const std::uint32_t v : fills.left)
+      unfilled[v] = 1;
+    widen(mesh, unfilled);
+    clean_topology(mesh);
+  }
+  mesh.triangles = before;
+}
+
 }  // namespace
 
 void repair(TriangleMesh& mesh, const Pairs& crossing, const PointGrid& cloud,
             const FinishOptions& options, FinishReport& report, const Progress& progress) {
   cut_pairs(mesh, crossing, report);
+  const HoleChoiceOptions choice = choice_options(cloud, options);
   // From here on nothing crosses: faces only go, and what comes is checked.
   for (int round = 0; round < options.rounds; ++round) {
     progress.check_stop();
@@ -186,9 +241,13 @@ void repair(TriangleMesh& mesh, const Pairs& crossing, const PointGrid& cloud,
     JoinedLoops joined = join_loops(mesh, cloud, options.pixel_size);
     report.joined_loops += joined.pairs;
     if (round >= kRoundsToJoin) joined.is_hindered.clear();
-    const FillOutcome outcome = fill(mesh, round, joined.is_hindered, cloud, options, report);
-    if (outcome.is_done || round + 1 == options.rounds) break;
-    widen(mesh, outcome.unfilled);
+    const FillOutcome outcome = fill(mesh, round, joined.is_hindered, cloud, choice, report);
+    if (outcome.is_done) break;
+    if (round + 1 < options.rounds) {
+      widen(mesh, outcome.unfilled);
+    } else {
+      fill_the_last(mesh, cloud, choice, report);
+    }
   }
   remove_unused_vertices(mesh);
 }

@@ -13,8 +13,9 @@ namespace rangezip {
 
 /// Rounds of {cut the faces that cross others, bridge cracks between pieces, close holes}. A fill
 /// or bridge that crosses anything is taken back and the hole widened by a ring of faces for the
-/// next round; after the last one it stays open. So the result is always oriented, manifold and
-/// free of self-intersections. Adds to the counts of `report`.
+/// next round. What is open after the last one is closed ear by ear (core/finish/ear_fill.h), if
+/// that closes all of it; else it stays open. The result is always oriented, manifold and free of
+/// self-intersections. Adds to the counts of `report`.
 /// @param crossing the pairs of faces that cross, self_intersections(mesh)
 /// @param cloud evidence for holes (core/finish/hole_choice.h); may be empty
 void repair(TriangleMesh& mesh,
