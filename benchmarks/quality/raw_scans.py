@@ -9,6 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+import shapes
+
 
 @dataclass
 class Scanner:
@@ -35,19 +37,14 @@ def merged_scans(vertices, faces, scanner, seed):
 
 
 def samples_needed(vertices, faces, scanner):
-    a, b, c = (vertices[faces[:, i]] for i in range(3))
-    area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()
-    return int(area * scanner.pixels ** 2 * SAMPLES_PER_PIXEL)
+    return int(shapes.areas(vertices, faces).sum() * scanner.pixels ** 2 * SAMPLES_PER_PIXEL)
 
 
 def surface_samples(vertices, faces, count, rng):
     """Uniform random places and their unit normals."""
+    places, chosen = shapes.scattered(vertices, faces, count, rng)
     a, b, c = (vertices[faces[:, i]] for i in range(3))
     cross = np.cross(b - a, c - a)
-    area = np.cumsum(np.linalg.norm(cross, axis=1))
-    chosen = np.minimum(np.searchsorted(area, rng.random(count) * area[-1], side='right'), len(faces) - 1)
-    r1, r2 = np.sqrt(rng.random(count)), rng.random(count)
-    places = a[chosen] * (1 - r1)[:, None] + b[chosen] * (r1 * (1 - r2))[:, None] + c[chosen] * (r1 * r2)[:, None]
     normals = cross / np.maximum(np.linalg.norm(cross, axis=1), 1e-30)[:, None]
     return places, normals[chosen]
 
@@ -100,7 +97,7 @@ def one_scan(places, normals, view, scanner, rng):
     behind = image[np.minimum(pixel[nearest] + 1, len(image) - 1)]
     is_edge = np.abs(behind - seen[:, 2]) > JUMP / scanner.pixels
     flies = is_edge & (rng.random(len(seen)) < scanner.flying)
-    depth[flies] += (rng.random(flies.sum()) * (behind[flies] - depth[flies]))
+    depth[flies] += rng.random(flies.sum()) * (behind[flies] - depth[flies])
     points = np.c_[seen[:, :2], depth][kept] @ frame
     return misplaced(points, scanner, rng)
 

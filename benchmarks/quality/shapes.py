@@ -215,14 +215,18 @@ def areas(vertices, faces):
                                    vertices[faces[:, 2]] - vertices[faces[:, 0]]), axis=1) / 2
 
 
-def sample(vertices, faces, count, seed, weight=None):
-    """Points spread over the faces evenly, or as `weight` says for each face."""
-    rng = np.random.Generator(np.random.PCG64(seed))
+def scattered(vertices, faces, count, rng, weight=None):
+    """Random places on the faces, evenly or as `weight` says for each face, and the face of each."""
     share = np.cumsum(areas(vertices, faces) * (1 if weight is None else weight))
     chosen = np.minimum(np.searchsorted(share, rng.random(count) * share[-1], side='right'), len(faces) - 1)
     r1, r2 = np.sqrt(rng.random(count)), rng.random(count)
     a, b, c = (vertices[faces[chosen][:, i]] for i in range(3))
-    return a * (1 - r1)[:, None] + b * (r1 * (1 - r2))[:, None] + c * (r1 * r2)[:, None]
+    return a * (1 - r1)[:, None] + b * (r1 * (1 - r2))[:, None] + c * (r1 * r2)[:, None], chosen
+
+
+def sample(vertices, faces, count, seed, weight=None):
+    """Points as those of scattered(), by seed."""
+    return scattered(vertices, faces, count, np.random.Generator(np.random.PCG64(seed)), weight)[0]
 
 
 def points_for(vertices, faces):
@@ -385,5 +389,6 @@ NAMES = (['sphere', 'torus', 'trefoil', 'bowl'] + ['plate %g' % t for t in (0.3,
          [f'{two} {gap}' for two in ('slabs', 'bars') for gap in (2, 3, 4)] +
          [f'{deep} {width}' for deep in ('slot', 'cavity', 'drilled') for width in (2, 3, 6)] +
          [f'perforated {width}' for width in (6, 8, 16)] +
-         [f'{sharp} {angle}' for sharp in ('lens', 'star') for angle in (15, 25, 40)] + ['noisy %g' % n for n in (0.05, 0.1, 0.2)] +
+         [f'{sharp} {angle}' for sharp in ('lens', 'star') for angle in (15, 25, 40)] +
+         ['noisy %g' % n for n in (0.05, 0.1, 0.2)] +
          ['contours', 'density', 'density-bumps', 'fingers'])
