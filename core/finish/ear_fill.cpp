@@ -115,7 +115,6 @@ class EarClipper {
 
   [[nodiscard]] double cost_of(std::size_t i) const {
     const auto [a, b, c] = face_at(i);
-    if (a == c) return kNever;
     const double length = glm::length(mesh_.positions[c] - mesh_.positions[a]);
     if (length > kLongestEdge * h_) return kNever;
     const bool is_last = next_[next_[i]] == previous_[i];

@@ -54,12 +54,7 @@ TriangleMesh faces_in(const std::vector<Vec3>& positions, const CornerTable& tab
   for (std::uint32_t f = 0; f < table.face_count(); ++f) {
     if (table.is_deleted(f)) continue;
     const Triangle t = table.triangle(f);
-    Box face;
-    for (const std::uint32_t v : t)
-      face.add(positions[v]);
-    if (glm::all(glm::lessThanEqual(face.lower, box.upper)) &&
-        glm::all(glm::greaterThanEqual(face.upper, box.lower)))
-      mesh.triangles.push_back(t);
+    if (boxes_meet(box_of(mesh, t), box)) mesh.triangles.push_back(t);
   }
   remove_unused_vertices(mesh);
   return mesh;

@@ -14,7 +14,7 @@ namespace {
 using testing::uniform;
 
 constexpr double kH = 1.0;
-constexpr double kHalf = 8.0;       ///< side of the plates
+constexpr double kHalf = 8.0;       ///< half a side of the plates
 constexpr double kThickness = 0.8;  ///< less than a pixel
 constexpr int kPerPixel = 6;
 
