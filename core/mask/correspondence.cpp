@@ -46,11 +46,7 @@ Correspondence by_depth_band(Rasterizer& rasterizer, const RangeImage& image,
   Correspondence result;
   result.face = faces_in_band(rasterizer, image, drawable.item(Facing::front),
                               band_around(image, slopes, options.band));
-  // In the band the face is on the sample's sheet; one across a gap may be nearer, but of another.
-  if (!any_face) {
-    result.face =
-        search_nearest_faces(result.face, image, mesh, kNoSample, NearestFaceSearch::walks);
-  }
+  if (!any_face) result.face = search_nearest_faces(result.face, image, mesh, kNoSample);
   result.from_behind = Mask(image.extent(), 0);
   if (options.back_band > 0.0) {
     const Grid<PrimitiveId> back = faces_in_band(rasterizer, image, drawable.item(Facing::back),
@@ -67,8 +63,7 @@ Correspondence by_id_buffer(Rasterizer& rasterizer, const RangeImage& image,
   const DrawItem item = drawable.item();
   Correspondence result{.face = rasterizer.render(image.view(), {&item, 1}).id,
                         .from_behind = Mask(image.extent(), 0)};
-  result.face =
-      search_nearest_faces(result.face, image, mesh, options.band, NearestFaceSearch::around);
+  result.face = search_nearest_faces(result.face, image, mesh, options.band);
   return result;
 }
 

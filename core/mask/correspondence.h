@@ -30,11 +30,10 @@ struct Correspondence {
 ///
 /// Both go from what is drawn to the face nearest to each sample (core/mask/nearest_faces.h).
 /// depth_band: the mesh is drawn under the image's view and every fragment outside the band around
-/// the range image is dropped, so the face is on the right sheet by construction; the search stays
-/// on what hangs together with it. Front faces (Facing::front) and back faces are drawn apart.
-/// id_buffer: the paper's way; the mesh is drawn as it is. A sample may then see a face of another
-/// sheet far behind it; that is no correspondence. Cost: two passes of the rasterizer over the mesh
-/// or one, O(faces + pixels).
+/// the range image is dropped, so that what is drawn is of the right sheet by construction. Front
+/// faces (Facing::front) and back faces are drawn apart. id_buffer: the paper's way; the mesh is
+/// drawn as it is. A sample may then see a face of another sheet far behind it; that is no
+/// correspondence. Cost: two passes of the rasterizer over the mesh or one, O(faces + pixels).
 /// @param any_face only whether there is a face matters, not which: depth_band then does not search
 /// @throws InvalidArgument if the extents differ or a band is negative or not finite.
 [[nodiscard]] Correspondence find_correspondence(Rasterizer& rasterizer, const RangeImage& image,

@@ -165,12 +165,10 @@ std::vector<Pixel> doubtful_samples(const Grid<NearestFace>& found, const RangeI
 }  // namespace
 
 Grid<PrimitiveId> search_nearest_faces(const Grid<PrimitiveId>& seen, const RangeImage& image,
-                                       const TriangleMesh& mesh, double reach,
-                                       NearestFaceSearch search) {
+                                       const TriangleMesh& mesh, double reach) {
   const OutgoingEdges edges(mesh);
   Grid<NearestFace> found = walk_to_samples(seen, image, mesh, edges, reach);
-  std::vector<Pixel> doubtful;
-  if (search == NearestFaceSearch::around) doubtful = doubtful_samples(found, image);
+  const std::vector<Pixel> doubtful = doubtful_samples(found, image);
   if (!doubtful.empty()) {
     const VerticesByPixel vertices(mesh, image.view(), doubtful);
     parallel_for(doubtful.size(), kSamplesPerBlock, [&](std::size_t begin, std::size_t end) {

@@ -108,7 +108,8 @@ TEST_CASE("pixels without a sample correspond to nothing", "[mask]") {
   CHECK(none.from_behind.extent() == image.extent());
 }
 
-TEST_CASE("the ID buffer finds the nearest face of a sphere at every sample", "[mask]") {
+TEST_CASE("both methods find the nearest face of a sphere at every sample", "[mask]") {
+  const auto method = GENERATE(CorrespondenceMethod::depth_band, CorrespondenceMethod::id_buffer);
   TriangleMesh mesh = shapes::to_mesh(shapes::sphere(8.0, 24));
   for (Vec3& p : mesh.positions)
     p.z -= 30.0;
@@ -119,7 +120,7 @@ TEST_CASE("the ID buffer finds the nearest face of a sphere at every sample", "[
     const double squared = 7.6 * 7.6 - x * x - y * y;
     return squared > 0.0 ? 30.0 - std::sqrt(squared) : kNoSample;
   });
-  const Correspondence found = find(image, mesh, {.method = CorrespondenceMethod::id_buffer});
+  const Correspondence found = find(image, mesh, {.method = method});
   int samples = 0;
   for (int y = 0; y < 20; ++y) {
     for (int x = 0; x < 20; ++x) {
@@ -199,8 +200,7 @@ TEST_CASE("a nearest face that is not seen and hangs together with nothing seen 
     for (int x = 1; x <= 10; ++x)
       seen[{x, y}] = 0;
   }
-  const Grid<PrimitiveId> found =
-      search_nearest_faces(seen, image, mesh, 1.5, NearestFaceSearch::around);
+  const Grid<PrimitiveId> found = search_nearest_faces(seen, image, mesh, 1.5);
   for (int y = 2; y < 18; ++y) {
     CHECK(found[{9, y}] < 2);
     REQUIRE(found[{10, y}] != kNoPrimitive);
