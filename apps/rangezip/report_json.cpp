@@ -50,6 +50,7 @@ Json json_of(const FinishReport& finish) {
           {"bridged_loops", finish.bridged_loops},
           {"joined_loops", finish.joined_loops},
           {"cut_handles", finish.cut_handles},
+          {"turned_pieces", finish.turned_pieces},
           {"filled_holes", finish.filled_holes},
           {"filled_faces", finish.filled_faces},
           {"open_loops", finish.open_loops},

@@ -20,6 +20,7 @@
 #include "core/finish/fit_vertices.h"
 #include "core/finish/fit_window.h"
 #include "core/finish/local_sizes.h"
+#include "core/finish/orient_pieces.h"
 #include "core/finish/point_grid.h"
 #include "core/finish/point_sides.h"
 #include "core/finish/regrow.h"
@@ -121,7 +122,7 @@ void remove_thin_handles(TriangleMesh& mesh, const PointGrid& cloud, const Finis
     const std::size_t cut = cut_thin_handles(mesh, kThinHandle * options.pixel_size, evidence);
     if (cut == 0) return;
     report.cut_handles += cut;
-    repair(mesh, {}, cloud, options, report, progress);
+    repair(mesh, {}, cloud, options, report, progress, Handles::not_made);
   }
 }
 
@@ -255,9 +256,10 @@ void coarsen_to_cloud(TriangleMesh& mesh, const PointGrid& cloud, const FinishOp
   const double edge =
       options.pixel_size * std::sqrt(static_cast<double>(before) / static_cast<double>(after));
   if (are_points_dense(mesh, cloud, report.noise, edge)) {
-    left = fit_cleanly(mesh, cloud.points(kMostPoints * after),
-                       {.reach = edge, .small_angle = kCoarseSmallAngle, .hold = kCoarseHold},
-                       report, progress);
+    left = fit_cleanly(
+        mesh, cloud.points(kMostPoints * after),
+        {.reach = edge, .small_angle = kCoarseSmallAngle, .hold = kCoarseHold, .median_angle = 0.0},
+        report, progress);
   }
   separate(mesh, left, cloud, options, report, progress);
   mend_slivers(mesh, cloud, options, report, progress);
@@ -349,6 +351,7 @@ FinishResult finish(TriangleMesh mesh, std::span<const Vec3> cloud, const Finish
   const double h = options.pixel_size;
   PointGrid points(cloud, region_of(mesh, kRegionMargin * h), kPointCell * h);
   clean_topology(mesh);
+  result.report.turned_pieces = orient_pieces(mesh, h);
   close(mesh, cloud, points, options, result.report, progress);
   remove_thin_handles(mesh, points, options, result.report, progress);
   if (options.method == FinishMethod::full) {

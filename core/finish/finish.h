@@ -21,7 +21,7 @@ struct FinishOptions {
                                     ///< that the surface was not sampled there
   double narrow_width = 3.0;        ///< in h: cracks up to this are closed whatever their length
   int rounds = 8;                   ///< of {cut self-intersections, bridge, fill}, at most
-  int relaxations = 7;              ///< of {split, collapse, flip, relax, project}
+  int relaxations = 8;              ///< of {split, collapse, flip, relax, project}
   std::size_t triangles = 0;    ///< target of `full`, met within a few percent; 0: as many as come
   double flat_tolerance = 0.0;  ///< in h: `full` lets triangles grow where they stay within this of
                                 ///< the surface; 0, or with `triangles`: as many as are asked for
@@ -55,6 +55,7 @@ struct FinishReport {
   std::size_t regrown_faces = 0;  ///< over what no scan has reached
   std::size_t border_steps = 0;   ///< that brought the border out to the end of the cloud
   std::size_t small_angles = 0;   ///< faces with an angle under 10 degrees left, if not coarsened
+  std::size_t turned_pieces = 0;  ///< that faced the wrong way
   std::size_t dropped_components = 0;
   std::size_t dropped_faces = 0;
 };
@@ -64,10 +65,10 @@ struct FinishResult {
   FinishReport report;
 };
 
-/// Makes a clean mesh of the stitched scans: removes self-intersections, bridges cracks between
-/// pieces, closes holes that the cloud does not show to be real, then improves triangles without
-/// leaving the cloud and moves borders that stay to where it ends. The result is oriented, manifold
-/// and free of self-intersections.
+/// Makes a clean mesh of the stitched scans: turns pieces that face the wrong way, removes
+/// self-intersections, bridges cracks between pieces, closes holes that the cloud does not show to
+/// be real, then improves triangles without leaving the cloud and moves borders that stay to where
+/// it ends. The result is oriented, manifold and free of self-intersections.
 /// @param cloud world positions of the points that were scanned (and area samples of polygons), to
 ///     which vertices are fitted and which give evidence; may be empty: no fitting
 /// @throws InvalidArgument if pixel_size is not positive and finite.

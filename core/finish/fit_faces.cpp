@@ -26,6 +26,8 @@ constexpr double kSharpest = 0.5;   // edge that may arise
 constexpr double kTurnGain = 0.98;  // of the squared distances: equal ones would turn to and fro
 constexpr std::array kShares{1.0, 0.5, 0.25};  // of the way of a vertex, the first that may be
 constexpr double kHoldAlways = 0.001;          // in points: where there are none
+constexpr double kHoldChange = 1.25;           // of a round, towards the median angle
+constexpr double kLeastHold = 0.5;             // of what is asked for
 constexpr double kRelaxStep = 0.55;  // towards the middle of the faces, that is held on to
 constexpr std::size_t kPerBlock = 1024;
 
@@ -41,6 +43,7 @@ class Fitter {
   Fitter(TriangleMesh& mesh, std::vector<Vec3> points, const FitFacesOptions& options)
       : positions_(mesh.positions),
         options_(options),
+        hold_(options.hold),
         table_(mesh.triangles, mesh.positions.size()),
         points_(mesh, std::move(points), options.reach) {}
 
@@ -56,6 +59,7 @@ class Fitter {
       for (int sweep = 0; sweep < kSweeps; ++sweep)
         solve_vertices();
       move_vertices();
+      if (options_.median_angle > 0.0) adapt_hold();
     }
   }
   [[nodiscard]] std::vector<Triangle> triangles() const { return table_.triangles(); }
@@ -143,9 +147,8 @@ class Fitter {
         const auto v = static_cast<std::uint32_t>(i);
         if (table_.is_boundary(v)) continue;
         rests_[v] = kRelaxStep * way_to_middle(v);
-        table_.for_each_corner(v, [&](std::uint32_t c) {
-          holds_[v] += options_.hold * sums_[c / 3].products[c % 3][c % 3];
-        });
+        table_.for_each_corner(
+            v, [&](std::uint32_t c) { holds_[v] += hold_ * sums_[c / 3].products[c % 3][c % 3]; });
       }
     });
   }
@@ -213,8 +216,29 @@ class Fitter {
     return ok;
   }
 
+  void adapt_hold() {
+    const bool is_short = median_of_smallest_angles() < options_.median_angle;
+    hold_ =
+        std::max(hold_ * (is_short ? kHoldChange : 1.0 / kHoldChange), kLeastHold * options_.hold);
+  }
+
+  /// As a sine.
+  [[nodiscard]] double median_of_smallest_angles() const {
+    std::vector<double> sines(table_.face_count());
+    parallel_for(sines.size(), kPerBlock, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t f = begin; f < end; ++f) {
+        const Triangle t = table_.triangle(static_cast<std::uint32_t>(f));
+        sines[f] = sine_of_smallest_angle(at(t[0]), at(t[1]), at(t[2]));
+      }
+    });
+    const auto middle = sines.begin() + static_cast<std::ptrdiff_t>(sines.size() / 2);
+    std::nth_element(sines.begin(), middle, sines.end());
+    return *middle;
+  }
+
   std::vector<Vec3>& positions_;
   FitFacesOptions options_;
+  double hold_;  ///< that of this round
   CornerTable table_;
   PointsOnFaces points_;
   std::vector<FaceSums> sums_;

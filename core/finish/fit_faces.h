@@ -15,6 +15,9 @@ struct FitFacesOptions {
   /// What holds vertices in the middle of their faces, in the weight of the points: where the
   /// surface bends by more than its root, a tenth of a radian, over an edge, the points decide.
   double hold = 0.0105;
+  /// Sine of what the median of the faces' smallest angles is to be: 50.2 degrees. From round to
+  /// round vertices are held more where it is less, and less where there is room. 0: as they are.
+  double median_angle = 0.7683;
 };
 
 /// Moves inner vertices, in any direction, and turns edges, so that the flat triangles are as near

@@ -109,21 +109,28 @@ void mark_obstructed(const std::vector<std::uint32_t>& loop,
     marked[v] = 1;
 }
 
-/// Flags the vertices of loops around which faces are to go before the next round: of long ones
-/// over points, in the first rounds, only next to what is in the way.
+/// The loops that are to be closed.
+struct ChosenFills {
+  std::vector<FillRequest> requests;
+  std::vector<std::uint8_t> is_wall;  ///< of each: FillChoice::is_wall
+};
+
+/// Flags the vertices of loops around which faces are to go before the next round: of lost walls,
+/// and in the first rounds of long loops over points, only next to what is in the way.
 std::vector<std::uint8_t> unfilled_vertices(const TriangleMesh& mesh, const CornerTable& table,
-                                            const std::vector<FillRequest>& requests,
-                                            const VerifiedFills& fills, bool is_gentle) {
+                                            const ChosenFills& chosen, const VerifiedFills& fills,
+                                            bool is_gentle) {
   std::vector<std::uint8_t> unfilled(mesh.positions.size(), 0);
   std::vector<std::uint8_t> is_obstructed(mesh.positions.size(), 0);
   for (const std::uint32_t v : fills.obstructed)
     is_obstructed[v] = 1;
   const std::vector<std::uint8_t> none(mesh.positions.size(), 0);
   for (const std::size_t i : fills.rejected) {
-    const std::vector<std::uint32_t> loop = vertices_of(requests[i].loop, table);
-    const bool is_shown = requests[i].shape == FillShape::smooth;  // by points, if it is long
+    const FillRequest& request = chosen.requests[i];
+    const std::vector<std::uint32_t> loop = vertices_of(request.loop, table);
+    const bool is_shown = request.shape == FillShape::smooth;  // by points, if it is long
     const bool is_spared = is_gentle && is_shown && loop.size() > kLongLoop;
-    mark_obstructed(loop, is_spared || requests[i].is_gentle ? is_obstructed : none, unfilled);
+    mark_obstructed(loop, is_spared || chosen.is_wall[i] != 0 ? is_obstructed : none, unfilled);
   }
   return unfilled;
 }
@@ -139,20 +146,21 @@ HoleChoiceOptions choice_options(const PointGrid& cloud, const FinishOptions& op
 }
 
 /// Which loops are to be closed, and how.
-std::vector<FillRequest> requests_for(const TriangleMesh& mesh, const CornerTable& table,
-                                      std::vector<BoundaryLoop> loops, bool is_zipped,
-                                      const PointGrid& cloud, const HoleChoiceOptions& choice) {
+ChosenFills choose_fills(const TriangleMesh& mesh, const CornerTable& table,
+                         std::vector<BoundaryLoop> loops, bool is_zipped, const PointGrid& cloud,
+                         const HoleChoiceOptions& choice) {
   std::vector<std::optional<FillChoice>> choices(loops.size());
   parallel_for(loops.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       choices[i] = choose_fill(mesh.positions, table, loops[i], is_zipped, cloud, choice);
   });
-  std::vector<FillRequest> requests;
+  ChosenFills chosen;
   for (std::size_t i = 0; i < loops.size(); ++i) {
-    if (choices[i])
-      requests.push_back({std::move(loops[i]), choices[i]->shape, choices[i]->is_wall});
+    if (!choices[i]) continue;
+    chosen.requests.push_back({std::move(loops[i]), choices[i]->shape});
+    chosen.is_wall.push_back(choices[i]->is_wall ? 1 : 0);
   }
-  return requests;
+  return chosen;
 }
 
 /// @param round the first is 0
@@ -163,24 +171,23 @@ FillOutcome fill(TriangleMesh& mesh, int round, const std::vector<std::uint8_t>&
   const CornerTable table(mesh.triangles, mesh.positions.size());
   std::vector<BoundaryLoop> loops = boundary_loops(table);
   const std::vector<BoundaryLoop> hindered = hindered_among(loops, table, is_hindered);
-  const std::vector<FillRequest> requests =
-      requests_for(mesh, table, std::move(loops), is_zipped, cloud, choice);
+  const ChosenFills chosen = choose_fills(mesh, table, std::move(loops), is_zipped, cloud, choice);
   const double h = choice.pixel_size;
   const VerifiedFillOptions fill_options{
       h, choice.narrow_width * h, kLongestZipped * h,
       choice.is_sampled ? CloudEvidence{&cloud, h} : CloudEvidence{}};
-  const VerifiedFills fills = fill_verified(mesh, table, requests, fill_options);
+  const VerifiedFills fills = fill_verified(mesh, table, chosen.requests, fill_options);
   report.filled_holes += fills.filled_holes;
   report.filled_faces += fills.filled_faces;
   FillOutcome outcome;
-  outcome.unfilled = unfilled_vertices(mesh, table, requests, fills, round < kGentleRounds);
+  outcome.unfilled = unfilled_vertices(mesh, table, chosen, fills, round < kGentleRounds);
   for (const BoundaryLoop& loop : hindered) {
     for (const std::uint32_t v : vertices_of(loop, table))
       outcome.unfilled[v] = 1;
   }
-  const bool any_zipped = std::any_of(requests.begin(), requests.end(), [](const FillRequest& r) {
-    return r.shape == FillShape::zipped;
-  });
+  const bool any_zipped =
+      std::any_of(chosen.requests.begin(), chosen.requests.end(),
+                  [](const FillRequest& r) { return r.shape == FillShape::zipped; });
   outcome.is_done =
       hindered.empty() && fills.rejected.empty() && fills.zipped_pieces == 0 && !any_zipped;
   return outcome;
@@ -197,7 +204,8 @@ void widen(TriangleMesh& mesh, const std::vector<std::uint8_t>& vertices) {
 std::vector<BoundaryLoop> loops_left(const TriangleMesh& mesh, const CornerTable& table,
                                      const PointGrid& cloud, const HoleChoiceOptions& choice) {
   std::vector<BoundaryLoop> loops;
-  for (FillRequest& request : requests_for(mesh, table, boundary_loops(table), true, cloud, choice))
+  ChosenFills chosen = choose_fills(mesh, table, boundary_loops(table), true, cloud, choice);
+  for (FillRequest& request : chosen.requests)
     loops.push_back(std::move(request.loop));
   return loops;
 }
@@ -229,7 +237,8 @@ void fill_the_last(TriangleMesh& mesh, const PointGrid& cloud, const HoleChoiceO
 }  // namespace
 
 void repair(TriangleMesh& mesh, const Pairs& crossing, const PointGrid& cloud,
-            const FinishOptions& options, FinishReport& report, const Progress& progress) {
+            const FinishOptions& options, FinishReport& report, const Progress& progress,
+            Handles handles) {
   cut_pairs(mesh, crossing, report);
   const HoleChoiceOptions choice = choice_options(cloud, options);
   // From here on nothing crosses: faces only go, and what comes is checked.
@@ -238,7 +247,8 @@ void repair(TriangleMesh& mesh, const Pairs& crossing, const PointGrid& cloud,
     clean_topology(mesh);
     bridge(mesh, cloud, options, report);
     drop_small(mesh, options, report);
-    JoinedLoops joined = join_loops(mesh, cloud, options.pixel_size);
+    JoinedLoops joined;
+    if (handles == Handles::made) joined = join_loops(mesh, cloud, options.pixel_size);
     report.joined_loops += joined.pairs;
     if (round >= kRoundsToJoin) joined.is_hindered.clear();
     const FillOutcome outcome = fill(mesh, round, joined.is_hindered, cloud, choice, report);

@@ -13,7 +13,6 @@ namespace rangezip {
 struct FillRequest {
   BoundaryLoop loop;
   FillShape shape = FillShape::smooth;
-  bool is_gentle = false;  ///< for the caller: if rejected, only what is in the way is to go
 };
 
 struct VerifiedFillOptions {

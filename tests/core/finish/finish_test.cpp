@@ -5,6 +5,7 @@
 #include <limits>
 #include <random>
 #include <stop_token>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
@@ -304,6 +305,37 @@ TEST_CASE("loops of one component are never joined to a handle") {
   REQUIRE(bridge_loops(mesh, PointGrid({}, Box{}, 1.0), 2.0 / kN) == 0);
   const FinishResult result = finish(mesh, {}, options_for(kN, FinishMethod::fast));
   REQUIRE(report_mesh(result.mesh).euler == 2);
+}
+
+TEST_CASE(
+    "a handle thinner than what scans resolve is cut, and its two ends are not joined again") {
+  const TriangleSoup soup = shapes::torus(1.0, 0.06);
+  const TriangleMesh ring = shapes::to_mesh(soup);
+  REQUIRE(report_mesh(ring).euler == 0);
+  const std::vector<Vec3> points = shapes::to_points(shapes::sampled(soup, 10'000));
+  FinishOptions options;
+  options.method = FinishMethod::fast;
+  options.pixel_size = 0.075;  // five around the tube
+  const FinishResult result = finish(ring, points, options);
+  require_clean(result.mesh);
+  CHECK(result.report.cut_handles == 1);
+  CHECK(report_mesh(result.mesh).euler == 2);
+  CHECK(report_mesh(result.mesh).boundary_loops == 0);
+}
+
+TEST_CASE("a piece that faces the wrong way is turned, and becomes a part of the whole") {
+  constexpr int kN = 32;
+  TriangleMesh mesh = testing::sphere(kN);
+  testing::cut_where(mesh, [](const Vec3& p) { return std::abs(p.z - 0.5) < 0.01; });
+  for (Triangle& t : mesh.triangles) {
+    if (mesh.positions[t[0]].z > 0.5) std::swap(t[1], t[2]);
+  }
+  const FinishResult result = finish(mesh, {}, options_for(kN, FinishMethod::fast));
+  require_clean(result.mesh);
+  CHECK(result.report.turned_pieces == 1);
+  CHECK(report_mesh(result.mesh).components == 1);
+  CHECK(report_mesh(result.mesh).euler == 2);
+  CHECK(testing::volume_of(result.mesh) > 0.9 * 4.18879);
 }
 
 TEST_CASE("small pieces are dropped and counted") {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <random>
 
 #include "core/base/parallel.h"
@@ -35,12 +36,30 @@ double mean_square(const TriangleMesh& mesh, const std::vector<Vec3>& points) {
   return sum / static_cast<double>(points.size());
 }
 
-double smallest_sine(const TriangleMesh& mesh) {
-  double least = 1.0;
+/// Of the smallest angle of each face, in order.
+std::vector<double> sorted_sines(const TriangleMesh& mesh) {
+  std::vector<double> sines;
   for (const Triangle& t : mesh.triangles)
-    least = std::min(least, sine_of_smallest_angle(mesh.positions[t[0]], mesh.positions[t[1]],
-                                                   mesh.positions[t[2]]));
-  return least;
+    sines.push_back(
+        sine_of_smallest_angle(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]));
+  std::sort(sines.begin(), sines.end());
+  return sines;
+}
+
+double smallest_sine(const TriangleMesh& mesh) {
+  return sorted_sines(mesh).front();
+}
+
+double median_sine(const TriangleMesh& mesh) {
+  return sorted_sines(mesh)[mesh.triangles.size() / 2];
+}
+
+/// A sphere with waves, which pull vertices to their crests and into their valleys.
+std::vector<Vec3> wavy_points(std::mt19937_64& engine) {
+  std::vector<Vec3> points = testing::sphere_points(0.02, 0.0, engine);
+  for (Vec3& p : points)
+    p *= 1.0 + 0.03 * std::sin(9.0 * p.x) * std::sin(9.0 * p.y) * std::sin(9.0 * p.z);
+  return points;
 }
 
 /// Spread evenly over the surface of the cube [-1, 1]^3.
@@ -88,6 +107,20 @@ TEST_CASE("no angle under 31 degrees arises, whatever the points ask for") {
   const double before = smallest_sine(mesh);
   fit_faces(mesh, points, {.reach = kReach});
   REQUIRE(smallest_sine(mesh) >= std::min(before, 0.515));
+}
+
+TEST_CASE("vertices are held as strongly as the wanted median of the angles asks for") {
+  std::mt19937_64 engine(8);
+  const std::vector<Vec3> points = wavy_points(engine);
+  const auto fitted = [&](double median_angle) {
+    TriangleMesh mesh = testing::sphere(12);
+    fit_faces(mesh, points, {.reach = kReach, .median_angle = median_angle});
+    return mesh;
+  };
+  const TriangleMesh plain = fitted(0.0), better = fitted(1.0), nearer = fitted(1e-6);
+  CHECK(median_sine(better) > median_sine(plain));
+  CHECK(median_sine(nearer) < median_sine(plain));
+  CHECK(mean_square(nearer, points) < mean_square(plain, points));
 }
 
 TEST_CASE("the boundary stays where it is") {

@@ -1,0 +1,172 @@
+#include "core/finish/orient_pieces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numeric>
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include "core/finish/boundary_loops.h"
+#include "core/finish/components.h"
+#include "core/finish/corner_table.h"
+#include "core/finish/loop_neighbors.h"
+
+namespace rangezip {
+namespace {
+
+/// In h: how far apart boundaries are compared.
+constexpr double kMaxGap = 3.0;
+/// Cosines: of two faces that lie in one surface, or of the ways in which two boundaries end.
+constexpr double kAlike = 0.5;
+/// How far the way across may rise over the plane of a face: of its length, and in h.
+constexpr double kMaxSlope = 0.5;
+constexpr double kRoughness = 0.25;
+
+/// A face at the boundary.
+struct Rim {
+  Vec3 place;
+  Vec3 normal;
+  Vec3 outward;  ///< in the plane of the face, across the boundary
+};
+
+/// At how many places a component continues others.
+struct Votes {
+  std::size_t same = 0;      ///< facing the same way
+  std::size_t opposite = 0;  ///< facing opposite ways
+
+  [[nodiscard]] std::size_t all() const { return same + opposite; }
+  void add(const Votes& votes, bool is_turned) {
+    same += is_turned ? votes.opposite : votes.same;
+    opposite += is_turned ? votes.same : votes.opposite;
+  }
+};
+
+struct Meeting {
+  std::uint32_t other = 0;  ///< component
+  Votes votes;
+};
+
+class Orienter {
+ public:
+  Orienter(const TriangleMesh& mesh, double pixel_size)
+      : positions_(mesh.positions),
+        h_(pixel_size),
+        table_(mesh.triangles, mesh.positions.size()),
+        loops_(boundary_loops(table_)),
+        component_(components_of(table_)) {
+    for (const std::uint32_t c : component_) {
+      if (c >= sizes_.size()) sizes_.resize(c + 1, 0);
+      ++sizes_[c];
+    }
+  }
+
+  /// Of each component, whether it is to be turned: from the largest on always the one that meets
+  /// those that are decided at most places.
+  [[nodiscard]] std::vector<std::uint8_t> turned() const {
+    std::vector<std::uint8_t> is_turned(sizes_.size(), 0);
+    if (sizes_.size() < 2) return is_turned;
+    const std::vector<std::size_t> borders = border_lengths();
+    const std::vector<std::vector<Meeting>> meetings = find_meetings();
+    std::vector<std::uint8_t> is_decided(sizes_.size(), 0);
+    std::vector<Votes> votes(sizes_.size());
+    for (const std::uint32_t root : by_size()) {
+      std::priority_queue<std::pair<std::size_t, std::uint32_t>> next;
+      next.emplace(0, root);
+      while (!next.empty()) {
+        const std::uint32_t c = next.top().second;
+        next.pop();
+        if (is_decided[c] != 0) continue;
+        is_decided[c] = 1;
+        is_turned[c] = votes[c].opposite > votes[c].same ? 1 : 0;
+        for (const Meeting& meeting : meetings[c]) {
+          const std::uint32_t other = meeting.other;
+          if (is_decided[other] != 0) continue;
+          votes[other].add(meeting.votes, is_turned[c] != 0);
+          if (2 * votes[other].all() >= borders[other]) next.emplace(votes[other].all(), other);
+        }
+      }
+    }
+    return is_turned;
+  }
+
+  [[nodiscard]] std::uint32_t component_of(std::size_t face) const { return component_[face]; }
+
+ private:
+  [[nodiscard]] std::uint32_t component_at(std::uint32_t loop) const {
+    return component_[loops_[loop].corners[0] / 3];
+  }
+  [[nodiscard]] std::vector<std::uint32_t> by_size() const {
+    std::vector<std::uint32_t> order(sizes_.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return sizes_[a] > sizes_[b]; });
+    return order;
+  }
+  [[nodiscard]] std::vector<std::size_t> border_lengths() const {
+    std::vector<std::size_t> lengths(sizes_.size(), 0);
+    for (std::uint32_t l = 0; l < loops_.size(); ++l)
+      lengths[component_at(l)] += loops_[l].corners.size();
+    return lengths;
+  }
+
+  [[nodiscard]] Rim rim_at(std::uint32_t loop, std::uint32_t place) const {
+    const std::uint32_t corner = loops_[loop].corners[place];
+    const Vec3 &from = positions_[table_.vertex(corner)], &to = positions_[table_.head(corner)];
+    const Vec3 normal = unit_or_z(area_vector(from, to, positions_[table_.apex(corner)]));
+    return {to, normal, unit_or_z(glm::cross(to - from, normal))};
+  }
+
+  /// Whether one surface goes on from one to the other, whichever way their faces look.
+  [[nodiscard]] bool do_continue(const Rim& a, const Rim& b) const {
+    const Vec3 way = b.place - a.place;
+    const double rise = kMaxSlope * glm::length(way) + kRoughness * h_;
+    return glm::dot(a.outward, b.outward) <= -kAlike &&
+           std::abs(glm::dot(a.normal, b.normal)) >= kAlike &&
+           std::abs(glm::dot(way, a.normal)) <= rise && std::abs(glm::dot(way, b.normal)) <= rise;
+  }
+
+  /// Of each component with others.
+  [[nodiscard]] std::vector<std::vector<Meeting>> find_meetings() const {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Votes> pairs;
+    const auto are_wanted = [&](std::uint32_t a, std::uint32_t b) {
+      return component_at(a) != component_at(b);
+    };
+    for (const LoopNeighbors& n :
+         loop_neighbors(loops_, table_, positions_, kMaxGap * h_, are_wanted)) {
+      const Rim a = rim_at(n.loop_a, n.place_a), b = rim_at(n.loop_b, n.place_b);
+      if (!do_continue(a, b)) continue;
+      Votes& votes = pairs[std::minmax(component_at(n.loop_a), component_at(n.loop_b))];
+      ++(glm::dot(a.normal, b.normal) > 0.0 ? votes.same : votes.opposite);
+    }
+    std::vector<std::vector<Meeting>> meetings(sizes_.size());
+    for (const auto& [pair, votes] : pairs) {
+      meetings[pair.first].push_back({pair.second, votes});
+      meetings[pair.second].push_back({pair.first, votes});
+    }
+    return meetings;
+  }
+
+  const std::vector<Vec3>& positions_;
+  double h_;
+  CornerTable table_;
+  std::vector<BoundaryLoop> loops_;
+  std::vector<std::uint32_t> component_;  ///< of each face
+  std::vector<std::size_t> sizes_;        ///< faces of each component
+};
+
+}  // namespace
+
+std::size_t orient_pieces(TriangleMesh& mesh, double pixel_size) {
+  const Orienter orienter(mesh, pixel_size);
+  const std::vector<std::uint8_t> is_turned = orienter.turned();
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    if (is_turned[orienter.component_of(f)] != 0)
+      std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
+  }
+  return static_cast<std::size_t>(std::count(is_turned.begin(), is_turned.end(), 1));
+}
+
+}  // namespace rangezip

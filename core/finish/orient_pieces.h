@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+
+#include "core/mesh/triangle_mesh.h"
+
+namespace rangezip {
+
+/// Turns pieces of a mesh inside out that face the wrong way (own). Through an opening of an
+/// object, as the neck of a bust, scans see the inside of its surface, and what no scan sees from
+/// outside gets its faces from there: a piece that continues what is around it, but faces the other
+/// way, so that no seam, bridge or fill can join the two.
+///
+/// Where the boundaries of two components run within 3 h of each other, the faces at both show
+/// whether one surface continues the other: they end towards each other, and what lies between goes
+/// on in their planes. From the largest component on, always the one is decided that continues
+/// those that are at most places, as many as half of its boundary has vertices: it is turned if at
+/// more of these they face opposite ways than the same.
+/// The two sides of a plate, whose boundaries end the same way, stay as they are, and so do two
+/// walls of which each has a part only.
+/// O(faces), and what loop_neighbors() costs.
+/// @param pixel_size h, model units; positive
+/// @pre oriented and manifold. Positions stay, and which faces there are.
+/// @return components turned
+std::size_t orient_pieces(TriangleMesh& mesh, double pixel_size);
+
+}  // namespace rangezip

@@ -1,0 +1,95 @@
+#include "core/finish/orient_pieces.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "core/mesh/mesh_report.h"
+#include "tests/core/finish/shapes.h"
+
+namespace rangezip {
+namespace {
+
+constexpr int kN = 32;
+constexpr double kSide = 2.0 / kN;
+
+/// A sphere cut open at the heights 0.2 and 0.6: a large piece, a ring, and a cap.
+TriangleMesh cut_sphere() {
+  TriangleMesh mesh = testing::sphere(kN);
+  for (const double height : {0.2, 0.6})
+    testing::cut_where(mesh, [&](const Vec3& p) { return std::abs(p.z - height) < 0.5 * kSide; });
+  REQUIRE(report_mesh(mesh).components == 3);
+  return mesh;
+}
+
+/// Turns the faces that lie between two heights inside out.
+TriangleMesh turned_between(TriangleMesh mesh, double low, double high) {
+  for (Triangle& t : mesh.triangles) {
+    const double z = mesh.positions[t[0]].z;
+    if (z > low && z < high) std::swap(t[1], t[2]);
+  }
+  return mesh;
+}
+
+/// A square sheet of n x n cells in the plane z = `level`, from x = `left` on, that looks up.
+void add_sheet(TriangleMesh& mesh, double left, double level, int n, bool looks_up) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  const auto row = static_cast<std::uint32_t>(n + 1);
+  for (int y = 0; y <= n; ++y) {
+    for (int x = 0; x <= n; ++x)
+      mesh.positions.emplace_back(left + x, y, level);
+  }
+  for (std::uint32_t y = 0; y + 1 < row; ++y) {
+    for (std::uint32_t x = 0; x + 1 < row; ++x) {
+      const std::uint32_t a = first + y * row + x;
+      mesh.triangles.push_back({a, a + 1, a + row + 1});
+      mesh.triangles.push_back({a, a + row + 1, a + row});
+      if (looks_up) continue;
+      for (std::size_t i = mesh.triangles.size() - 2; i < mesh.triangles.size(); ++i)
+        std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("pieces that continue a surface come to face as its largest one does") {
+  const TriangleMesh right = cut_sphere();
+  const auto [low, high, count] = GENERATE(table<double, double, std::size_t>(
+      {{2.0, 3.0, 0U},  // none
+       {0.6, 2.0, 1U},  // the cap
+       {0.2, 0.6, 1U},  // the ring: the cap is compared with it as it is to be
+       {0.2, 2.0, 2U}}));
+  CAPTURE(low, high);
+  TriangleMesh mesh = turned_between(right, low, high);
+  REQUIRE(orient_pieces(mesh, kSide) == count);
+  REQUIRE(mesh == right);
+}
+
+TEST_CASE("where the largest piece faces inwards, so do all") {
+  const TriangleMesh inwards = turned_between(cut_sphere(), -2.0, 2.0);
+  TriangleMesh mesh = turned_between(inwards, 0.6, 2.0);
+  REQUIRE(orient_pieces(mesh, kSide) == 1);
+  REQUIRE(mesh == inwards);
+}
+
+TEST_CASE("the two sides of a plate, whose rim no scan saw, stay as they are") {
+  TriangleMesh mesh;
+  add_sheet(mesh, 0.0, 0.0, 12, true);
+  add_sheet(mesh, 0.0, -2.0, 11, false);
+  const TriangleMesh before = mesh;
+  REQUIRE(orient_pieces(mesh, 1.0) == 0);
+  REQUIRE(mesh == before);
+}
+
+TEST_CASE("of a wall the one side and, beyond it, the other side stay as they are") {
+  TriangleMesh mesh;
+  add_sheet(mesh, 0.0, 0.0, 12, true);
+  add_sheet(mesh, 13.0, -2.0, 12, false);
+  const TriangleMesh before = mesh;
+  REQUIRE(orient_pieces(mesh, 1.0) == 0);
+  REQUIRE(mesh == before);
+}
+
+}  // namespace rangezip
