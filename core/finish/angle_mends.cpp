@@ -204,12 +204,15 @@ class Mender {
     return way <= options_.max_border_way ? std::optional(place) : std::nullopt;
   }
   /// On the faces around it, towards its neighbours and the middles of the edges between them; at
-  /// the border also outward.
+  /// the border also outward, and away from neighbours.
   void move(std::uint32_t vertex, double step) {
     const Vec3& from = at(vertex);
-    if (table_.is_boundary(vertex)) move_vertex(vertex, step * outward_at(vertex));
-    table_.for_each_neighbor(vertex,
-                             [&](std::uint32_t v) { move_vertex(vertex, step * (at(v) - from)); });
+    const bool is_at_border = table_.is_boundary(vertex);
+    if (is_at_border) move_vertex(vertex, step * outward_at(vertex));
+    table_.for_each_neighbor(vertex, [&](std::uint32_t v) {
+      move_vertex(vertex, step * (at(v) - from));
+      if (is_at_border) move_vertex(vertex, step * (from - at(v)));
+    });
     table_.for_each_corner(vertex, [&](std::uint32_t c) {
       const Vec3 middle = 0.5 * (at(table_.head(c)) + at(table_.apex(c)));
       move_vertex(vertex, step * (middle - from));

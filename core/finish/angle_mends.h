@@ -28,7 +28,7 @@ struct AngleMendOptions {
 /// - an edge turns, or turns with the vertex across from it going onto it;
 /// - an edge collapses, into one of its ends or halfway; at the border, also to where the border's
 ///   edges on both sides meet;
-/// - a corner moves on the faces around it, or, at the border, outward;
+/// - a corner moves on the faces around it, or, at the border, outward or away from a neighbour;
 /// - the face goes, if its longest edge is one of the border, the corner across from it going to
 ///   that edge; or if only one of its edges is none of the border.
 /// Angles over 14 degrees count as equally good: then those with the least change are first.

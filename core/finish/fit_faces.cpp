@@ -22,12 +22,11 @@ constexpr int kRounds = 6;
 constexpr int kTurningRounds = 4;  // after the first; later ones find hardly an edge to turn
 constexpr int kSweeps = 10;        // of solving: the rounds go on with what is left
 constexpr double kMostTurn = 0.5;
-constexpr double kSharpest = 0.5;   // edge that may arise
-constexpr double kTurnGain = 0.98;  // of the squared distances: equal ones would turn to and fro
+constexpr double kSharpest = 0.5;    // edge that may arise
+constexpr double kTurnGain = 0.995;  // of the squared distances: equal ones would turn to and fro
 constexpr std::array kShares{1.0, 0.5, 0.25};  // of the way of a vertex, the first that may be
 constexpr double kHoldAlways = 0.001;          // in points: where there are none
-constexpr double kHoldChange = 1.25;           // of a round, towards the median angle
-constexpr double kLeastHold = 0.5;             // of what is asked for
+constexpr double kMoreHold = 1.25;             // in the next round, if angles are too small
 constexpr double kRelaxStep = 0.55;  // towards the middle of the faces, that is held on to
 constexpr std::size_t kPerBlock = 1024;
 
@@ -59,7 +58,7 @@ class Fitter {
       for (int sweep = 0; sweep < kSweeps; ++sweep)
         solve_vertices();
       move_vertices();
-      if (options_.median_angle > 0.0) adapt_hold();
+      if (median_of_smallest_angles() < options_.median_angle) hold_ *= kMoreHold;
     }
   }
   [[nodiscard]] std::vector<Triangle> triangles() const { return table_.triangles(); }
@@ -214,12 +213,6 @@ class Fitter {
            has_cosine(area_vector(at(v), p, q), area_vector(target, p, q), kMostTurn);
     });
     return ok;
-  }
-
-  void adapt_hold() {
-    const bool is_short = median_of_smallest_angles() < options_.median_angle;
-    hold_ =
-        std::max(hold_ * (is_short ? kHoldChange : 1.0 / kHoldChange), kLeastHold * options_.hold);
   }
 
   /// As a sine.

@@ -14,10 +14,10 @@ struct FitFacesOptions {
   double small_angle = 0.515;
   /// What holds vertices in the middle of their faces, in the weight of the points: where the
   /// surface bends by more than its root, a tenth of a radian, over an edge, the points decide.
-  double hold = 0.0105;
-  /// Sine of what the median of the faces' smallest angles is to be: 50.2 degrees. From round to
-  /// round vertices are held more where it is less, and less where there is room. 0: as they are.
-  double median_angle = 0.7683;
+  double hold = 0.009;
+  /// Sine of what the median of the faces' smallest angles is to be: 50.1 degrees. After a round in
+  /// which it is less vertices are held more. 0: as they are.
+  double median_angle = 0.7672;
 };
 
 /// Moves inner vertices, in any direction, and turns edges, so that the flat triangles are as near
