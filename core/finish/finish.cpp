@@ -45,6 +45,8 @@ constexpr int kThinnedParts = 2;
 /// In h: girth of handles that no object has, since scans resolve what is 2 h thick (over 6 h
 /// around).
 constexpr double kThinHandle = 5.5;
+/// In h: girth of handles that the object does not have if points lie within.
+constexpr double kFilledHandle = 9.0;
 /// Between contours a window may span four gaps: two contours on both sides tell the bending.
 constexpr double kWidestPerGap = 5.0;
 constexpr int kRegrowRounds = 3;
@@ -116,13 +118,19 @@ void close(TriangleMesh& mesh, std::span<const Vec3> cloud, const PointGrid& poi
 /// Cuts handles that seams made where sheets come close, and closes the holes.
 void remove_thin_handles(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
                          FinishReport& report, const Progress& progress) {
-  CloudEvidence evidence;
-  if (options.narrow_gaps) evidence = {&cloud, options.pixel_size};
+  const double h = options.pixel_size;
+  ThinHandleOptions thin{.max_girth = kThinHandle * h};
+  if (options.narrow_gaps) {
+    thin.gaps = {&cloud, h};
+  } else {
+    thin.filled_girth = kFilledHandle * h;
+    thin.cloud = &cloud;
+  }
   for (int round = 0; round < kHandleRounds; ++round) {
-    const std::size_t cut = cut_thin_handles(mesh, kThinHandle * options.pixel_size, evidence);
+    const std::size_t cut = cut_thin_handles(mesh, thin);
     if (cut == 0) return;
     report.cut_handles += cut;
-    repair(mesh, {}, cloud, options, report, progress, Handles::not_made);
+    repair(mesh, {}, cloud, options, report, progress);
   }
 }
 

@@ -21,6 +21,8 @@ namespace {
 constexpr double kMaxGap = 3.0;
 /// Cosines: of two faces that lie in one surface, or of the ways in which two boundaries end.
 constexpr double kAlike = 0.5;
+/// Edges on each side of a place of a boundary that tell its directions.
+constexpr std::size_t kBeside = 4;
 /// How far the way across may rise over the plane of a face: of its length, and in h.
 constexpr double kMaxSlope = 0.5;
 constexpr double kRoughness = 0.25;
@@ -32,13 +34,19 @@ struct Rim {
   Vec3 outward;  ///< in the plane of the face, across the boundary
 };
 
-/// At how many places a component continues others.
+/// At how many places a component comes near others.
 struct Votes {
-  std::size_t same = 0;      ///< facing the same way
-  std::size_t opposite = 0;  ///< facing opposite ways
+  std::size_t all = 0;
+  std::size_t same = 0;      ///< it continues them, facing the same way
+  std::size_t opposite = 0;  ///< it continues them, facing opposite ways
 
-  [[nodiscard]] std::size_t all() const { return same + opposite; }
+  /// A third is enough: boundaries are ragged, but hardly any place of one that needs no turn
+  /// tells so.
+  [[nodiscard]] bool tell_to_turn() const {
+    return opposite > 0 && 3 * opposite >= all && opposite > 3 * same;
+  }
   void add(const Votes& votes, bool is_turned) {
+    all += votes.all;
     same += is_turned ? votes.opposite : votes.same;
     opposite += is_turned ? votes.same : votes.opposite;
   }
@@ -80,12 +88,12 @@ class Orienter {
         next.pop();
         if (is_decided[c] != 0) continue;
         is_decided[c] = 1;
-        is_turned[c] = votes[c].opposite > votes[c].same ? 1 : 0;
+        is_turned[c] = votes[c].tell_to_turn() ? 1 : 0;
         for (const Meeting& meeting : meetings[c]) {
           const std::uint32_t other = meeting.other;
           if (is_decided[other] != 0) continue;
           votes[other].add(meeting.votes, is_turned[c] != 0);
-          if (2 * votes[other].all() >= borders[other]) next.emplace(votes[other].all(), other);
+          if (2 * votes[other].all >= borders[other]) next.emplace(votes[other].all, other);
         }
       }
     }
@@ -112,11 +120,21 @@ class Orienter {
     return lengths;
   }
 
+  /// With the directions of some faces on both sides: a boundary has steps, as pixels have.
   [[nodiscard]] Rim rim_at(std::uint32_t loop, std::uint32_t place) const {
-    const std::uint32_t corner = loops_[loop].corners[place];
-    const Vec3 &from = positions_[table_.vertex(corner)], &to = positions_[table_.head(corner)];
-    const Vec3 normal = unit_or_z(area_vector(from, to, positions_[table_.apex(corner)]));
-    return {to, normal, unit_or_z(glm::cross(to - from, normal))};
+    const auto& corners = loops_[loop].corners;
+    const std::size_t n = corners.size();
+    Rim rim{positions_[table_.head(corners[place])], Vec3(0.0), Vec3(0.0)};
+    for (std::size_t i = n * kBeside + place - kBeside; i < n * kBeside + place + kBeside; ++i) {
+      const std::uint32_t corner = corners[i % n];
+      const Vec3 &from = positions_[table_.vertex(corner)], &to = positions_[table_.head(corner)];
+      const Vec3 area = area_vector(from, to, positions_[table_.apex(corner)]);
+      rim.normal += area;
+      rim.outward += glm::cross(to - from, unit_or_z(area));
+    }
+    rim.normal = unit_or_z(rim.normal);
+    rim.outward = unit_or_z(rim.outward);
+    return rim;
   }
 
   /// Whether one surface goes on from one to the other, whichever way their faces look.
@@ -137,9 +155,9 @@ class Orienter {
     for (const LoopNeighbors& n :
          loop_neighbors(loops_, table_, positions_, kMaxGap * h_, are_wanted)) {
       const Rim a = rim_at(n.loop_a, n.place_a), b = rim_at(n.loop_b, n.place_b);
-      if (!do_continue(a, b)) continue;
       Votes& votes = pairs[std::minmax(component_at(n.loop_a), component_at(n.loop_b))];
-      ++(glm::dot(a.normal, b.normal) > 0.0 ? votes.same : votes.opposite);
+      ++votes.all;
+      if (do_continue(a, b)) ++(glm::dot(a.normal, b.normal) > 0.0 ? votes.same : votes.opposite);
     }
     std::vector<std::vector<Meeting>> meetings(sizes_.size());
     for (const auto& [pair, votes] : pairs) {

@@ -13,9 +13,9 @@ namespace rangezip {
 ///
 /// Where the boundaries of two components run within 3 h of each other, the faces at both show
 /// whether one surface continues the other: they end towards each other, and what lies between goes
-/// on in their planes. From the largest component on, always the one is decided that continues
+/// on in their planes. From the largest component on, always the one is decided that comes near
 /// those that are at most places, as many as half of its boundary has vertices: it is turned if at
-/// more of these they face opposite ways than the same.
+/// a third of these it continues them, facing the other way, and hardly anywhere facing the same.
 /// The two sides of a plate, whose boundaries end the same way, stay as they are, and so do two
 /// walls of which each has a part only.
 /// O(faces), and what loop_neighbors() costs.

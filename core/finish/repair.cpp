@@ -237,8 +237,7 @@ void fill_the_last(TriangleMesh& mesh, const PointGrid& cloud, const HoleChoiceO
 }  // namespace
 
 void repair(TriangleMesh& mesh, const Pairs& crossing, const PointGrid& cloud,
-            const FinishOptions& options, FinishReport& report, const Progress& progress,
-            Handles handles) {
+            const FinishOptions& options, FinishReport& report, const Progress& progress) {
   cut_pairs(mesh, crossing, report);
   const HoleChoiceOptions choice = choice_options(cloud, options);
   // From here on nothing crosses: faces only go, and what comes is checked.
@@ -247,8 +246,7 @@ void repair(TriangleMesh& mesh, const Pairs& crossing, const PointGrid& cloud,
     clean_topology(mesh);
     bridge(mesh, cloud, options, report);
     drop_small(mesh, options, report);
-    JoinedLoops joined;
-    if (handles == Handles::made) joined = join_loops(mesh, cloud, options.pixel_size);
+    JoinedLoops joined = join_loops(mesh, cloud, options.pixel_size);
     report.joined_loops += joined.pairs;
     if (round >= kRoundsToJoin) joined.is_hindered.clear();
     const FillOutcome outcome = fill(mesh, round, joined.is_hindered, cloud, choice, report);

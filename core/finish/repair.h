@@ -11,12 +11,6 @@
 
 namespace rangezip {
 
-/// Whether pairs of loops may be joined (core/finish/join_loops.h).
-enum class Handles {
-  made,
-  not_made,  ///< after handles were cut: the two loops of such a cut would be joined again
-};
-
 /// Rounds of {cut the faces that cross others, bridge cracks between pieces, close holes}. A fill
 /// or bridge that crosses anything is taken back and the hole widened by a ring of faces for the
 /// next round. What is open after the last one is closed ear by ear (core/finish/ear_fill.h), if
@@ -27,6 +21,6 @@ enum class Handles {
 void repair(TriangleMesh& mesh,
             const std::vector<std::pair<std::uint32_t, std::uint32_t>>& crossing,
             const PointGrid& cloud, const FinishOptions& options, FinishReport& report,
-            const Progress& progress, Handles handles = Handles::made);
+            const Progress& progress);
 
 }  // namespace rangezip

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <numbers>
 #include <queue>
 #include <tuple>
 #include <utility>
@@ -325,17 +326,54 @@ std::vector<Cycle> short_cycles(const CornerTable& table, const std::vector<doub
   return cycles;
 }
 
+std::size_t points_within(const PointGrid& cloud, const Vec3& place, double radius) {
+  std::size_t count = 0;
+  cloud.for_each_near(place, radius, [&](const Vec3& offset) {
+    count += glm::dot(offset, offset) <= radius * radius ? 1 : 0;
+  });
+  return count;
+}
+
+/// Whether points lie in the middle of a closed path, compared with those along it.
+bool is_filled(const Cycle& cycle, const TriangleMesh& mesh, const PointGrid& cloud) {
+  constexpr double kMiddle = 0.5;  // of the radius
+  constexpr double kLeastDensity = 0.25;
+  Vec3 middle{0.0};
+  for (const std::uint32_t v : cycle.vertices)
+    middle += mesh.positions[v] / static_cast<double>(cycle.vertices.size());
+  const double radius = kMiddle * cycle.length / (2.0 * std::numbers::pi);
+  std::size_t along = 0;
+  for (const std::uint32_t v : cycle.vertices)
+    along += points_within(cloud, mesh.positions[v], radius);
+  const double mean = static_cast<double>(along) / static_cast<double>(cycle.vertices.size());
+  const auto inside = static_cast<double>(points_within(cloud, middle, radius));
+  return inside > 0.0 && inside >= kLeastDensity * mean;
+}
+
+/// Paths that no object has, the shortest first.
+std::vector<Cycle> false_cycles(const TriangleMesh& mesh, const CornerTable& table,
+                                const ThinHandleOptions& options) {
+  const std::vector<double> lengths = lengths_of(mesh, table, options.gaps);
+  const bool knows_filled = options.cloud != nullptr && !options.cloud->empty();
+  const double longest =
+      knows_filled ? std::max(options.max_girth, options.filled_girth) : options.max_girth;
+  std::vector<Cycle> cycles = short_cycles(table, lengths, longest);
+  std::erase_if(cycles, [&](const Cycle& cycle) {
+    return cycle.length > options.max_girth && !is_filled(cycle, mesh, *options.cloud);
+  });
+  return cycles;
+}
+
 }  // namespace
 
-std::size_t cut_thin_handles(TriangleMesh& mesh, double max_girth, const CloudEvidence& evidence) {
+std::size_t cut_thin_handles(TriangleMesh& mesh, const ThinHandleOptions& options) {
   const CornerTable table(mesh.triangles, mesh.positions.size());
   if (!has_handles(table)) return 0;
-  const std::vector<double> lengths = lengths_of(mesh, table, evidence);
   std::vector<std::uint8_t> is_dropped(mesh.triangles.size(), 0);
   std::vector<std::uint8_t> is_touched(mesh.positions.size(), 0);  // by an earlier cut
   IndependentWords cut_words;
   std::size_t cuts = 0;
-  for (const Cycle& cycle : short_cycles(table, lengths, max_girth)) {
+  for (const Cycle& cycle : false_cycles(mesh, table, options)) {
     const bool meets_cut = std::any_of(cycle.vertices.begin(), cycle.vertices.end(),
                                        [&](std::uint32_t v) { return is_touched[v] != 0; });
     if (meets_cut || !cut_words.add(cycle.word)) continue;

@@ -307,22 +307,6 @@ TEST_CASE("loops of one component are never joined to a handle") {
   REQUIRE(report_mesh(result.mesh).euler == 2);
 }
 
-TEST_CASE(
-    "a handle thinner than what scans resolve is cut, and its two ends are not joined again") {
-  const TriangleSoup soup = shapes::torus(1.0, 0.06);
-  const TriangleMesh ring = shapes::to_mesh(soup);
-  REQUIRE(report_mesh(ring).euler == 0);
-  const std::vector<Vec3> points = shapes::to_points(shapes::sampled(soup, 10'000));
-  FinishOptions options;
-  options.method = FinishMethod::fast;
-  options.pixel_size = 0.075;  // five around the tube
-  const FinishResult result = finish(ring, points, options);
-  require_clean(result.mesh);
-  CHECK(result.report.cut_handles == 1);
-  CHECK(report_mesh(result.mesh).euler == 2);
-  CHECK(report_mesh(result.mesh).boundary_loops == 0);
-}
-
 TEST_CASE("a piece that faces the wrong way is turned, and becomes a part of the whole") {
   constexpr int kN = 32;
   TriangleMesh mesh = testing::sphere(kN);

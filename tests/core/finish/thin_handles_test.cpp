@@ -39,10 +39,10 @@ TriangleMesh closed(TriangleMesh mesh) {
 TEST_CASE("a thin ring is cut open where it is shorter around than asked for, and only then") {
   const TriangleMesh ring = shapes::to_mesh(shapes::torus(1.0, kThin));
   TriangleMesh kept = ring;
-  CHECK(cut_thin_handles(kept, 0.95 * kGirth) == 0);
+  CHECK(cut_thin_handles(kept, {.max_girth = 0.95 * kGirth}) == 0);
   CHECK(kept.triangles == ring.triangles);
   TriangleMesh cut = ring;
-  CHECK(cut_thin_handles(cut, 1.05 * kGirth) == 1);
+  CHECK(cut_thin_handles(cut, {.max_girth = 1.05 * kGirth}) == 1);
   const TriangleMesh healed = closed(std::move(cut));
   CHECK(genus_of(healed) == 0);
   CHECK(report_mesh(healed).components == 1);
@@ -51,7 +51,7 @@ TEST_CASE("a thin ring is cut open where it is shorter around than asked for, an
 
 TEST_CASE("a narrow tunnel is closed like a thin handle") {
   TriangleMesh mesh = shapes::to_mesh(shapes::torus(1.0, 1.0 - kThin));
-  CHECK(cut_thin_handles(mesh, 1.05 * kGirth) == 1);
+  CHECK(cut_thin_handles(mesh, {.max_girth = 1.05 * kGirth}) == 1);
   CHECK(genus_of(closed(std::move(mesh))) == 0);
 }
 
@@ -61,10 +61,10 @@ TEST_CASE("of several bodies only the thin one is cut") {
       shapes::moved(shapes::torus(1.0, kThin), shapes::translation({4.0, 0.0, 0.0}));
   TriangleMesh mesh = shapes::to_mesh(shapes::merged(thick, thin));
   REQUIRE(genus_of(mesh) == 2);
-  CHECK(cut_thin_handles(mesh, 1.05 * kGirth) == 1);
+  CHECK(cut_thin_handles(mesh, {.max_girth = 1.05 * kGirth}) == 1);
   mesh = closed(std::move(mesh));
   CHECK(genus_of(mesh) == 1);
-  CHECK(cut_thin_handles(mesh, 1.05 * kGirth) == 0);
+  CHECK(cut_thin_handles(mesh, {.max_girth = 1.05 * kGirth}) == 0);
 }
 
 TEST_CASE(
@@ -75,22 +75,39 @@ TEST_CASE(
   const Box region{Vec3(-2.0), Vec3(2.0)};
   const PointGrid whole(points, region, 0.1);
   TriangleMesh kept = shapes::to_mesh(soup);
-  CHECK(cut_thin_handles(kept, 0.5 * girth, {&whole, 0.1}) == 0);
+  CHECK(cut_thin_handles(kept, {.max_girth = 0.5 * girth, .gaps = {&whole, 0.1}}) == 0);
   std::erase_if(points, [](const Vec3& p) { return p.x > 0.3 && std::abs(p.y) < 0.6; });
   const PointGrid part(points, region, 0.1);
   TriangleMesh cut = shapes::to_mesh(soup);
-  CHECK(cut_thin_handles(cut, 0.5 * girth, {&part, 0.1}) == 1);
+  CHECK(cut_thin_handles(cut, {.max_girth = 0.5 * girth, .gaps = {&part, 0.1}}) == 1);
   CHECK(genus_of(closed(std::move(cut))) == 0);
+}
+
+TEST_CASE("a longer handle is cut if points lie inside, and kept if they lie on it only") {
+  const double tube = 0.3, girth = 2.0 * std::numbers::pi * tube;
+  const TriangleSoup soup = shapes::torus(1.0, tube);
+  std::vector<Vec3> points = shapes::to_points(shapes::sampled(soup, 40'000));
+  const Box region{Vec3(-2.0), Vec3(2.0)};
+  const PointGrid hollow(points, region, 0.1);
+  TriangleMesh kept = shapes::to_mesh(soup);
+  CHECK(cut_thin_handles(kept, {.filled_girth = 1.1 * girth, .cloud = &hollow}) == 0);
+  const TriangleSoup core = shapes::torus(1.0, 0.2 * tube);
+  const std::vector<Vec3> inside = shapes::to_points(shapes::sampled(core, 10'000));
+  points.insert(points.end(), inside.begin(), inside.end());
+  const PointGrid filled(points, region, 0.1);
+  CHECK(cut_thin_handles(kept, {.filled_girth = 0.9 * girth, .cloud = &filled}) == 0);
+  CHECK(cut_thin_handles(kept, {.filled_girth = 1.1 * girth, .cloud = &filled}) == 1);
+  CHECK(genus_of(closed(std::move(kept))) == 0);
 }
 
 TEST_CASE("the ends of an open tube make no handle of it, nor do bodies without any") {
   constexpr std::array<Vec2, 3> kProfile{Vec2{kThin, 0.0}, Vec2{kThin, 0.1}, Vec2{kThin, 0.2}};
   TriangleMesh tube = shapes::to_mesh(shapes::revolved(kProfile, false));
-  CHECK(cut_thin_handles(tube, 10.0 * kGirth) == 0);
+  CHECK(cut_thin_handles(tube, {.max_girth = 10.0 * kGirth}) == 0);
   TriangleMesh ball = shapes::to_mesh(shapes::sphere());
-  CHECK(cut_thin_handles(ball, 100.0) == 0);
+  CHECK(cut_thin_handles(ball, {.max_girth = 100.0}) == 0);
   TriangleMesh nothing;
-  CHECK(cut_thin_handles(nothing, 1.0) == 0);
+  CHECK(cut_thin_handles(nothing, {.max_girth = 1.0}) == 0);
 }
 
 }  // namespace rangezip
