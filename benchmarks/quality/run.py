@@ -172,7 +172,7 @@ CASES = [
     Case('fandisk 100 K, noise 0.1 %', Sampled('mesh/fandisk.obj', 100_000, 2, 0.001),
          bounds=CLEAN + CLOSED + GOOD_ANGLES + [Bound('accuracy_rms', '<=', 0.0003, True),
                                                 Bound('fscore_01', '>=', 0.98), Bound('normal_dev_p95', '<=', 12.0)]),
-    decimated('fandisk 100 K, decimated', 'mesh/fandisk.obj', 100_000, 1, 0.008),
+    decimated('fandisk 100 K, decimated', 'mesh/fandisk.obj', 100_000, 1, 0.007),
     decimated('fandisk 400 K, decimated', 'mesh/fandisk.obj', 400_000, 1, 0.01),
     decimated('fandisk 400 K, quad-trees', 'mesh/fandisk.obj', 400_000, 1, 0.08, finish='fast'),
     Case('igea 400 K', Sampled('mesh/igea.ply', 400_000, 3), bounds=CLEAN + CLOSED + NO_SMALL_ANGLES + cost(6, 300)),

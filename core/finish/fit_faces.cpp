@@ -58,7 +58,8 @@ class Fitter {
       for (int sweep = 0; sweep < kSweeps; ++sweep)
         solve_vertices();
       move_vertices();
-      if (median_of_smallest_angles() < options_.median_angle) hold_ *= kMoreHold;
+      if (options_.median_angle > 0.0 && median_of_smallest_angles() < options_.median_angle)
+        hold_ *= kMoreHold;
     }
   }
   [[nodiscard]] std::vector<Triangle> triangles() const { return table_.triangles(); }
