@@ -101,7 +101,7 @@ def check(vertices, faces, cloud, h):
     vertices, cloud, h = (vertices - center) * scale, (cloud - center) * scale, h * scale
     edges = boundary_edges(faces, len(vertices))
     lengths = loop_lengths(vertices, edges[0], edges[1])
-    over = beyond(vertices, faces, edges, cloud, h) / h if len(lengths) else np.zeros(1)
+    over = beyond(vertices, faces, edges, cloud, h) / h if len(lengths) and len(cloud) else np.zeros(1)
     return {'loops': len(lengths), 'long_loops': int((lengths > LONG_LOOP * h).sum()),
             'points_beyond': int((over > NEGLIGIBLE).sum()),
             'points_beyond_quarter': int((over > 0.25).sum()),
