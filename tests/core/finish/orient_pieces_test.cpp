@@ -74,19 +74,12 @@ TEST_CASE("where the largest piece faces inwards, so do all") {
   REQUIRE(mesh == inwards);
 }
 
-TEST_CASE("the two sides of a plate, whose rim no scan saw, stay as they are") {
+TEST_CASE("the two sides of a plate or wall stay as they are, over each other or side by side") {
+  const auto [left, n] = GENERATE(table<double, int>({{0.0, 11}, {13.0, 12}}));
+  CAPTURE(left);
   TriangleMesh mesh;
   add_sheet(mesh, 0.0, 0.0, 12, true);
-  add_sheet(mesh, 0.0, -2.0, 11, false);
-  const TriangleMesh before = mesh;
-  REQUIRE(orient_pieces(mesh, 1.0) == 0);
-  REQUIRE(mesh == before);
-}
-
-TEST_CASE("of a wall the one side and, beyond it, the other side stay as they are") {
-  TriangleMesh mesh;
-  add_sheet(mesh, 0.0, 0.0, 12, true);
-  add_sheet(mesh, 13.0, -2.0, 12, false);
+  add_sheet(mesh, left, -2.0, n, false);
   const TriangleMesh before = mesh;
   REQUIRE(orient_pieces(mesh, 1.0) == 0);
   REQUIRE(mesh == before);
