@@ -14,17 +14,12 @@ namespace {
 
 // Smallest angles are sines.
 constexpr double kGain = 0.02;
-constexpr double kEnough = 0.25;
 /// Faces with a smaller angle have no direction of their own; those around them tell it, roughly.
 constexpr double kHasDirection = 0.1;
 constexpr double kRoughTurn = 0.3;
 /// Of the way to a neighbour or across a face.
 constexpr std::array kSteps{0.1, 0.2, 0.35, 0.5};
 constexpr std::uint32_t kNone = CornerTable::kNone;
-
-double lack_of(double angle) {
-  return std::max(kEnough - angle, 0.0);
-}
 
 class Mender {
  public:
@@ -60,6 +55,9 @@ class Mender {
   }
   [[nodiscard]] double angle_of(const Triangle& t) const {
     return sine_of_smallest_angle(at(t[0]), at(t[1]), at(t[2]));
+  }
+  [[nodiscard]] double lack_of(double angle) const {
+    return std::max(options_.enough - angle, 0.0);
   }
   [[nodiscard]] Vec3 area_of(const Triangle& t) const {
     return area_vector(at(t[0]), at(t[1]), at(t[2]));

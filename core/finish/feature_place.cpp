@@ -23,6 +23,7 @@ constexpr double kProofResidual = 0.06;  // beyond the noise
 constexpr double kSharperShare = 0.5;    // of the residual of a smooth surface
 constexpr double kBeyond = 0.05;
 constexpr double kBeyondShare = 0.15;  // of the points: so few may lie where the side has ended
+constexpr int kMinSame = 2;            // points, of a side that has not
 
 /// The points around a place.
 struct Proof {
@@ -71,7 +72,7 @@ bool is_proved(const Surroundings& around, double smooth_residual2, const Vec3& 
 }
 
 /// Whether a place on one side lies on the wrong side of another, as hardly a point of the first
-/// does.
+/// does, or where the first has no points.
 bool is_beyond(const Surroundings& around, const Vec3& place, std::size_t own, std::size_t other) {
   const SurfaceHeight &on = around.sides[own].height, &over = around.sides[other].height;
   const double height = over.at(place);
@@ -81,7 +82,7 @@ bool is_beyond(const Surroundings& around, const Vec3& place, std::size_t own, s
     const double h = over.at(p);
     if (std::abs(on.at(p)) < std::abs(h)) ++(h * height > 0.0 ? same : opposite);
   });
-  return same < kBeyondShare * opposite;
+  return same < kMinSame || same <= kBeyondShare * opposite;
 }
 
 /// Whether the place lies where one of the sides that meet there has ended at a third.
@@ -90,8 +91,7 @@ bool is_beyond_others(const Surroundings& around, const Vec3& place,
   for (std::size_t k = 0; k < side_count(around); ++k) {
     if (std::find(meeting.begin(), meeting.end(), k) != meeting.end()) continue;
     for (const std::size_t i : meeting) {
-      if (!is_one_side(around.sides[i], around.sides[k]) && is_beyond(around, place, i, k))
-        return true;
+      if (is_beyond(around, place, i, k)) return true;
     }
   }
   return false;

@@ -33,7 +33,8 @@ struct FeaturePlace {
 /// The nearest corner if it is closer than 0.8 `edge`, the nearest edge if it is closer than half
 /// of it, else the place on the nearer of the two sides that meet there. A place counts only if the
 /// points of the cloud around it lie on the sides, some on each that meets there, much closer than
-/// on a smooth surface, and if it lies on no side beyond where that ends at another.
+/// on a smooth surface, and if it lies on no side beyond where that ends at another, be that only a
+/// little bent from it.
 /// @param edge mean length of the edges around the origin, model units
 /// @param smooth_residual2 mean square distance of the points from a smooth surface
 [[nodiscard]] FeaturePlace find_feature_place(const Surroundings& around, double edge,

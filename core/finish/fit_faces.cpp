@@ -22,11 +22,13 @@ constexpr int kRounds = 6;
 constexpr int kTurningRounds = 4;  // after the first; later ones find hardly an edge to turn
 constexpr int kSweeps = 10;        // of solving: the rounds go on with what is left
 constexpr double kMostTurn = 0.5;
-constexpr double kSharpest = 0.5;    // edge that may arise
-constexpr double kTurnGain = 0.995;  // of the squared distances: equal ones would turn to and fro
+constexpr double kSharpest = 0.5;     // edge that may arise
+constexpr double kTurnGain = 0.995;   // of the squared distances: equal ones would turn to and fro
+constexpr double kAngleGain = 0.05;   // sine: by so much better an angle is worth some distance
+constexpr double kTurnSlack = 0.004;  // of the reach: that distance
 constexpr std::array kShares{1.0, 0.5, 0.25};  // of the way of a vertex, the first that may be
 constexpr double kHoldAlways = 0.001;          // in points: where there are none
-constexpr double kMoreHold = 1.25;             // in the next round, if angles are too small
+constexpr double kMoreHold = 1.35;             // in the next round, if angles are too small
 constexpr double kRelaxStep = 0.55;  // towards the middle of the faces, that is held on to
 constexpr std::size_t kPerBlock = 1024;
 
@@ -72,7 +74,8 @@ class Fitter {
     return glm::dot(offset, offset);
   }
 
-  /// Where that brings the faces nearer to their points. Of neighbouring edges only one turns.
+  /// Where that brings the faces nearer to their points, or angles grow and they stay as near. Of
+  /// neighbouring edges only one turns.
   std::size_t turn_edges() {
     std::size_t count = 0;
     std::vector<std::uint8_t> is_new(table_.face_count(), 0);
@@ -80,7 +83,7 @@ class Fitter {
       if (!table_.names_inner_edge(c)) continue;
       const std::uint32_t left = c / 3, right = table_.across(c) / 3;
       if (is_new[left] != 0 || is_new[right] != 0) continue;
-      if (!may_turn(c) || !is_nearer_turned(c)) continue;
+      if (!may_turn(c) || !is_better_turned(c)) continue;
       table_.flip(c);
       is_new[left] = is_new[right] = 1;
       ++count;
@@ -96,18 +99,29 @@ class Fitter {
     return has_cosine(areas.new_a, areas.new_b, kSharpest) && table_.is_flip_ok(corner);
   }
 
-  [[nodiscard]] bool is_nearer_turned(std::uint32_t corner) const {
+  [[nodiscard]] bool is_better_turned(std::uint32_t corner) const {
     const Diamond d(table_, corner);
     double before = 0.0, after = 0.0;
+    std::size_t count = 0;
     for (const std::uint32_t face : {corner / 3, table_.across(corner) / 3}) {
       const Triangle t = table_.triangle(face);
       for (const std::uint32_t i : points_.of_face(face)) {
         const Vec3& p = points_.point(i);
         before += squared_distance(t[0], t[1], t[2], p);
         after += std::min(squared_distance(d.a, d.y, d.x, p), squared_distance(d.b, d.x, d.y, p));
+        ++count;
       }
     }
-    return after < kTurnGain * before;
+    const double slack = static_cast<double>(count) * squared_slack();
+    const double gain = angle_after_flip(positions_, d) - angle_before_flip(positions_, d);
+    if (gain > kAngleGain) return after <= before + slack;
+    return after < kTurnGain * before - (gain < -kAngleGain ? slack : 0.0);
+  }
+
+  /// Of a point's distance.
+  [[nodiscard]] double squared_slack() const {
+    const double slack = kTurnSlack * options_.reach;
+    return slack * slack;
   }
 
   void sum_faces() {

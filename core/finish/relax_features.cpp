@@ -12,12 +12,12 @@ namespace {
 
 constexpr int kRounds = 5;
 constexpr int kRings = 2;
-constexpr double kGain = 0.005;       // of the sine of the smallest angle
-constexpr double kOneSide = 0.95;     // cosine: faces of one side
-constexpr double kTurn = 0.9;         // cosine: how far a face may turn
-constexpr int kMendFrom = 2;          // rounds that only relax
-constexpr double kSmallAngle = 0.4;   // sine: 24 degrees
-constexpr double kSmallEnough = 0.7;  // sine of the smallest angle: better ones are left alone
+constexpr double kGain = 0.005;      // of the sine of the smallest angle, or of their mean
+constexpr double kKeptAngle = 0.5;   // sine: 30 degrees, for the sake of the mean
+constexpr double kOneSide = 0.95;    // cosine: faces of one side
+constexpr double kTurn = 0.9;        // cosine: how far a face may turn
+constexpr int kMendFrom = 2;         // rounds that only relax
+constexpr double kSmallAngle = 0.4;  // sine: 24 degrees
 
 class Relaxer {
  public:
@@ -68,12 +68,11 @@ class Relaxer {
     if (is_feature_[v] > 1) return;
     if (table_.corner_of(v) == CornerTable::kNone) return;
     const double before = smallest_angle(v, at(v));
-    if (before > kSmallEnough) return;
     const std::optional<Vec3> middle =
         is_feature_[v] != 0 ? middle_of_chain(v) : middle_of_faces(v);
     if (!middle) return;
     const std::optional<Vec3> place = sides_.place_on(v, *middle);
-    if (!place || smallest_angle(v, *place) < before + kGain) return;
+    if (!place || !has_better_angles(v, *place, before)) return;
     if (before >= 0.0 && turns_face(v, *place)) return;
     positions_[v] = *place;
   }
@@ -89,6 +88,25 @@ class Relaxer {
       smallest = std::min(smallest, angle);
     });
     return wrong > 0.0 ? -wrong : smallest;
+  }
+
+  /// The smallest one, or without loss for that, the mean of those of the faces.
+  [[nodiscard]] bool has_better_angles(std::uint32_t v, const Vec3& place, double before) const {
+    const double after = smallest_angle(v, place);
+    if (after >= before + kGain) return true;
+    return after >= std::min(before, kKeptAngle) &&
+           mean_angle(v, place) >= mean_angle(v, at(v)) + kGain;
+  }
+
+  /// Mean sine of the smallest angles of the faces around a vertex, were it at `place`.
+  [[nodiscard]] double mean_angle(std::uint32_t v, const Vec3& place) const {
+    double sum = 0.0;
+    int count = 0;
+    table_.for_each_corner(v, [&](std::uint32_t c) {
+      sum += sine_of_smallest_angle(place, at(table_.head(c)), at(table_.apex(c)));
+      ++count;
+    });
+    return sum / count;
   }
 
   [[nodiscard]] bool turns_face(std::uint32_t v, const Vec3& place) const {

@@ -22,7 +22,8 @@ struct VertexSides {
 
 /// Evens out the triangles along features: vertices on an edge slide along it, vertices within two
 /// edges of one within their side, each towards the middle of its neighbours, as long as the
-/// smallest angle around it grows; angles of faces that look the wrong way count as negative, so
+/// smallest angle around it grows, or those of its faces do on average and none falls under 30
+/// degrees; angles of faces that look the wrong way count as negative, so
 /// folds open. Edges between faces of one side are turned where that makes the smallest angle grow.
 /// Corners stay, and so does what is farther away.
 /// Linear in what is near features. @param is_feature per vertex: 1 on an edge, 2 at a corner

@@ -25,8 +25,7 @@ constexpr double kShortEdge = 4.0 / 5.0;
 constexpr double kLongestEdge = 1.8;   // that may arise where a small angle goes
 constexpr double kCollapseTurn = 0.7;  // 45 degrees: a collapse may tilt a face so much
 constexpr double kMinAngleAfterCollapse = 0.15;
-constexpr double kSmallAngle = 0.5;  // 30 degrees
-constexpr double kRelaxStep = 0.7;
+constexpr double kSmallAngle = 0.5;    // 30 degrees
 constexpr double kFitMinCosine = 0.6;  // between the fitted surface and the mesh
 constexpr int kRoundsAfterCoarse = 5;  // that make the wanted size again
 constexpr double kFirstScale = 1.6;    // coarser triangles at first leave nothing of the pixel grid
@@ -57,8 +56,8 @@ class Remesher {
   }
 
   void run(RemeshReport& report, const Progress& progress) {
-    for (const double share : kProjections)
-      move_vertices(0.0, share);
+    for (const double radii : kProjections)
+      project_vertices(radii);
     for (int round = 0; round < options_.rounds; ++round) {
       progress.check_stop();
       if (round + kClosingRounds < options_.rounds) {
@@ -76,13 +75,13 @@ class Remesher {
         report.flipped_edges += flip_for_angles(table_, positions_);
       }
       report.flattened_spikes += flatten_spikes(positions_, table_, cloud_, options_.pixel_size);
-      move_vertices(kRelaxStep);
+      relax_vertices();
     }
     report.edge = scale_;
     report.flipped_edges += flip_for_angles(table_, positions_);
     report.collapsed_edges += collapse_small_angles();
     for (int round = 0; round < kAligningRounds; ++round) {
-      if (round > 0) move_vertices(kRelaxStep);
+      if (round > 0) relax_vertices();
       report.flipped_edges += flip_for_normals(table_, positions_, surface_normals());
     }
   }
@@ -228,11 +227,30 @@ class Remesher {
     return ok;
   }
 
-  void move_vertices(double step, double radii = 1.0) {
-    std::vector<Vec3> moved(positions_.size());
+  /// Onto the surface of the cloud.
+  void project_vertices(double radii) {
+    move_vertices([&](std::uint32_t v) {
+      return projected(v, at(v), vertex_normal(table_, positions_, v), radii);
+    });
+  }
+
+  /// To the middle of the faces around, then onto the surface of the cloud.
+  void relax_vertices() {
+    move_vertices([&](std::uint32_t v) {
+      const Vec3 normal = vertex_normal(table_, positions_, v);
+      return projected(v, middle_around(v, normal), normal, 1.0);
+    });
+  }
+
+  /// Inner vertices to place_of(vertex), all at once, where that turns no face.
+  template <class PlaceOf>
+  void move_vertices(const PlaceOf& place_of) {
+    std::vector<Vec3> moved(positions_);
     parallel_for(positions_.size(), kPerBlock, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v)
-        moved[v] = place_for(static_cast<std::uint32_t>(v), step, radii);
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto v = static_cast<std::uint32_t>(i);
+        if (!table_.is_boundary(v)) moved[v] = place_of(v);
+      }
     });
     for (std::uint32_t v = 0; v < positions_.size(); ++v) {
       if (moved[v] != at(v) && turns_no_face(table_, positions_, v, moved[v]))
@@ -240,10 +258,9 @@ class Remesher {
     }
   }
 
-  /// Towards the middle of the faces around, then onto the surface of the cloud.
-  [[nodiscard]] Vec3 place_for(std::uint32_t v, double step, double radii) {
+  /// Of the faces, on the tangent plane; larger ones count as much where they should be large.
+  [[nodiscard]] Vec3 middle_around(std::uint32_t v, const Vec3& normal) const {
     const Vec3& p = at(v);
-    if (table_.is_boundary(v)) return p;
     Vec3 sum{0.0};
     double weight = 0.0;
     table_.for_each_corner(v, [&](std::uint32_t c) {
@@ -254,9 +271,8 @@ class Remesher {
       weight += w;
     });
     if (!(weight > 0.0)) return p;
-    const Vec3 normal = vertex_normal(table_, positions_, v);
     const Vec3 shift = sum / weight - p;
-    return projected(v, p + step * (shift - glm::dot(shift, normal) * normal), normal, radii);
+    return p + shift - glm::dot(shift, normal) * normal;
   }
 
   [[nodiscard]] Vec3 projected(std::uint32_t v, const Vec3& p, const Vec3& normal, double radii) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -18,14 +19,26 @@
 namespace rangezip {
 namespace {
 
-constexpr double kSmallAngle = 0.1737;       ///< sine: 10 degrees and the rounding of a file
-constexpr std::array kTurns{0.8, 0.5, 0.0};  ///< cosines, of faces; the next for what is left
-constexpr int kRounds = 8;                   ///< for each of those
-constexpr std::size_t kMostTries = 64;       ///< of the mends of a face
-constexpr int kRings = 3;                    ///< around small angles: what the rounds may change
-constexpr double kBorderWay = 0.5;           ///< in h, of a vertex of the border
-constexpr double kReach = 1.0;        ///< in h, of points beyond the border, as in extend_border.h
-constexpr double kNegligible = 1e-3;  ///< in h, the same
+/// Angles to mend: those under one, for some rounds. Sines, and the turn of faces as a cosine.
+struct Stage {
+  double under;
+  double enough;  // see AngleMendOptions
+  double max_turn;
+  double border_way;  // in h, of a vertex of the border
+  double beyond;      // in h: points so far beyond the border are none
+};
+constexpr double kNegligible = 1e-3;    ///< in h, as in extend_border.h
+constexpr double kSmallAngle = 0.1737;  ///< 10 degrees and the rounding of a file
+constexpr double kEnough = 0.25;        ///< 14 degrees
+constexpr std::array kSmall{Stage{kSmallAngle, kEnough, 0.8, 0.5, kNegligible},
+                            Stage{kSmallAngle, kEnough, 0.5, 0.5, kNegligible},
+                            Stage{kSmallAngle, kEnough, 0.0, 0.5, 0.02},
+                            Stage{kSmallAngle, kEnough, 0.0, 0.5, 0.5}};
+constexpr std::array kMedium{Stage{0.5, 0.52, 0.97, 0.1, kNegligible}};  ///< 30 and 31 degrees
+constexpr int kRounds = 8;                                               ///< of each stage
+constexpr std::size_t kMostTries = 64;                                   ///< of the mends of a face
+constexpr int kRings = 3;       ///< around small angles: what the rounds may change
+constexpr double kReach = 1.0;  ///< in h, of points beyond the border, as in extend_border.h
 /// In h: what is nearer than this to a change tells whether it may be; points within the reach, and
 /// faces that may be nearer to them.
 constexpr double kAround = 2.5;
@@ -36,10 +49,11 @@ double angle_of(const std::vector<Vec3>& p, const Triangle& t) {
   return sine_of_smallest_angle(p[t[0]], p[t[1]], p[t[2]]);
 }
 
-std::vector<std::uint32_t> small_faces(const TriangleMesh& mesh) {
+/// Faces with an angle whose sine is less.
+std::vector<std::uint32_t> small_faces(const TriangleMesh& mesh, double sine) {
   std::vector<std::uint32_t> found;
   for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
-    if (angle_of(mesh.positions, mesh.triangles[f]) < kSmallAngle) found.push_back(f);
+    if (angle_of(mesh.positions, mesh.triangles[f]) < sine) found.push_back(f);
   }
   return found;
 }
@@ -54,42 +68,40 @@ Box widened(Box box, double margin) {
   return box;
 }
 
-template <class IsIn>
-FacePart part_of(const TriangleMesh& mesh, const IsIn& is_in) {
-  std::vector<std::uint8_t> flags(mesh.triangles.size());
-  std::transform(mesh.triangles.begin(), mesh.triangles.end(), flags.begin(),
-                 [&](const Triangle& t) { return static_cast<std::uint8_t>(is_in(t) ? 1 : 0); });
-  return face_part(mesh, flags);
-}
-
-/// The cubes of a grid that boxes meet, for asking whether another box meets one.
+/// What has a box, by the cubes of a grid that the boxes meet.
 class Cubes {
  public:
-  explicit Cubes(double side) : per_side_(1.0 / side) {}
+  /// @param origin moves along with the mesh: so do the cubes
+  Cubes(const Vec3& origin, double side) : origin_(origin), per_side_(1.0 / side) {}
 
-  void add(const Box& box) {
-    for_each(box, [&](const Cube& cube) { cubes_.push_back(cube); });
+  void add(const Box& box, std::uint32_t id) {
+    for_each(box, [&](const Cube& cube) { entries_.emplace_back(cube, id); });
   }
   void sort() {
-    std::sort(cubes_.begin(), cubes_.end());
-    cubes_.erase(std::unique(cubes_.begin(), cubes_.end()), cubes_.end());
+    std::sort(entries_.begin(), entries_.end());
+    entries_.erase(std::unique(entries_.begin(), entries_.end()), entries_.end());
   }
-  /// @pre sort()
-  [[nodiscard]] bool meet(const Box& box) const {
-    bool found = false;
+  /// Those whose boxes meet a cube that this one meets, rising. @pre sort()
+  [[nodiscard]] std::vector<std::uint32_t> near(const Box& box) const {
+    std::vector<std::uint32_t> ids;
     for_each(box, [&](const Cube& cube) {
-      found = found || std::binary_search(cubes_.begin(), cubes_.end(), cube);
+      auto entry = std::lower_bound(entries_.begin(), entries_.end(), Entry(cube, 0));
+      for (; entry != entries_.end() && entry->first == cube; ++entry)
+        ids.push_back(entry->second);
     });
-    return found;
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    return ids;
   }
 
  private:
   using Cube = std::array<std::int64_t, 3>;
+  using Entry = std::pair<Cube, std::uint32_t>;
 
   [[nodiscard]] Cube cube_at(const Vec3& place) const {
-    return {static_cast<std::int64_t>(std::floor(place.x * per_side_)),
-            static_cast<std::int64_t>(std::floor(place.y * per_side_)),
-            static_cast<std::int64_t>(std::floor(place.z * per_side_))};
+    const Vec3 cube = glm::floor((place - origin_) * per_side_);
+    return {static_cast<std::int64_t>(cube.x), static_cast<std::int64_t>(cube.y),
+            static_cast<std::int64_t>(cube.z)};
   }
   template <class Visit>
   void for_each(const Box& box, const Visit& visit) const {
@@ -102,8 +114,9 @@ class Cubes {
     }
   }
 
+  Vec3 origin_;
   double per_side_;
-  std::vector<Cube> cubes_;
+  std::vector<Entry> entries_;
 };
 
 /// Flags of the vertices of the faces that have a flagged vertex.
@@ -133,13 +146,62 @@ std::vector<std::uint8_t> vertices_around(const TriangleMesh& mesh,
 
 /// The faces near those with a flagged vertex.
 FacePart part_around(const TriangleMesh& mesh, const std::vector<std::uint8_t>& flags, double h) {
-  Cubes near(kCube * h);
+  Cubes cubes(bounds_of(mesh).lower, kCube * h);
   for (const Triangle& t : mesh.triangles) {
-    if (has_flag(flags, t)) near.add(widened(box_of(mesh, t), kAround * h));
+    if (has_flag(flags, t)) cubes.add(widened(box_of(mesh, t), kAround * h), 0);
   }
-  near.sort();
-  return part_of(mesh, [&](const Triangle& t) { return near.meet(box_of(mesh, t)); });
+  cubes.sort();
+  std::vector<std::uint8_t> is_near(mesh.triangles.size());
+  std::transform(mesh.triangles.begin(), mesh.triangles.end(), is_near.begin(),
+                 [&](const Triangle& t) {
+                   return static_cast<std::uint8_t>(cubes.near(box_of(mesh, t)).empty() ? 0 : 1);
+                 });
+  return face_part(mesh, is_near);
 }
+
+/// The faces of a mesh by where they are.
+Cubes cubes_of(const TriangleMesh& mesh, double h) {
+  Cubes cubes(bounds_of(mesh).lower, kCube * h);
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f)
+    cubes.add(box_of(mesh, mesh.triangles[f]), f);
+  cubes.sort();
+  return cubes;
+}
+
+/// A few faces as a mesh of their own.
+struct Neighborhood {
+  TriangleMesh mesh;
+  std::vector<std::uint32_t> faces;     // of the whole, rising, one per face
+  std::vector<std::uint32_t> vertices;  // of the whole, rising, one per position
+
+  Neighborhood(const TriangleMesh& whole, std::vector<std::uint32_t> some)
+      : faces(std::move(some)) {
+    for (const std::uint32_t f : faces)
+      vertices.insert(vertices.end(), whole.triangles[f].begin(), whole.triangles[f].end());
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    for (const std::uint32_t v : vertices)
+      mesh.positions.push_back(whole.positions[v]);
+    for (const std::uint32_t f : faces)
+      mesh.triangles.push_back(triangle(whole.triangles[f]));
+  }
+
+  [[nodiscard]] std::uint32_t vertex(std::uint32_t of_whole) const {
+    return index_in(vertices, of_whole);
+  }
+  [[nodiscard]] std::uint32_t face(std::uint32_t of_whole) const {
+    return index_in(faces, of_whole);
+  }
+  [[nodiscard]] Triangle triangle(const Triangle& of_whole) const {
+    return {vertex(of_whole[0]), vertex(of_whole[1]), vertex(of_whole[2])};
+  }
+
+ private:
+  static std::uint32_t index_in(const std::vector<std::uint32_t>& all, std::uint32_t of_whole) {
+    return static_cast<std::uint32_t>(std::lower_bound(all.begin(), all.end(), of_whole) -
+                                      all.begin());
+  }
+};
 
 /// A mesh after a mend, and which of its faces are new.
 struct Mended {
@@ -150,9 +212,9 @@ struct Mended {
 /// The surroundings of a face, on which its mends are tried.
 class Spot {
  public:
-  Spot(const TriangleMesh& mesh, const CornerTable& table, const std::vector<AngleMend>& mends,
-       const PointGrid& cloud, double h)
-      : part_(part_near(mesh, table, mends, h)),
+  Spot(const TriangleMesh& mesh, const CornerTable& table, const Cubes& cubes,
+       const std::vector<AngleMend>& mends, const PointGrid& cloud, double h, double beyond)
+      : part_(mesh, cubes.near(box_around(mesh, table, mends, h))),
         cloud_(cloud),
         h_(h),
         table_(part_.mesh.triangles, part_.mesh.positions.size()),
@@ -161,17 +223,16 @@ class Spot {
     for (const AngleMend& mend : mends) {
       for (const std::uint32_t f : mend.gone) {
         for (const std::uint32_t v : mesh.triangles[f])
-          is_changed_[part_.index[v]] = 1;
+          is_changed_[part_.vertex(v)] = 1;
       }
     }
     for (std::uint32_t v = 0; v < is_changed_.size(); ++v)
       is_at_border_ = is_at_border_ || (is_changed_[v] != 0 && table_.is_boundary(v));
-    beyond_ = kNegligible * h;
-    if (is_at_border_) beyond_ = std::max(beyond_, farthest_beyond(part_.mesh, table_, faces_));
+    beyond_ = is_at_border_ ? std::max(beyond, farthest_beyond(part_.mesh, table_, faces_)) : 0.0;
   }
 
-  /// Whether with the mend no faces cross, and no point is beyond the border, or none farther than
-  /// there is without.
+  /// Whether with the mend no faces cross, and no point is farther beyond the border than may be,
+  /// or than there is without.
   [[nodiscard]] bool allows(const AngleMend& mend) const {
     const Mended mended = apply(mend);
     if (!self_intersections(mended.mesh, mended.changed).empty()) return false;
@@ -182,8 +243,8 @@ class Spot {
   }
 
  private:
-  static FacePart part_near(const TriangleMesh& mesh, const CornerTable& table,
-                            const std::vector<AngleMend>& mends, double h) {
+  static Box box_around(const TriangleMesh& mesh, const CornerTable& table,
+                        const std::vector<AngleMend>& mends, double h) {
     Box box;
     for (const AngleMend& mend : mends) {
       for (const std::uint32_t f : mend.gone) {
@@ -191,27 +252,21 @@ class Spot {
           table.for_each_neighbor(v, [&](std::uint32_t w) { box.add(mesh.positions[w]); });
       }
     }
-    box = widened(box, kAround * h);
-    return part_of(mesh, [&](const Triangle& t) { return overlap(box, box_of(mesh, t)); });
-  }
-  static bool overlap(const Box& a, const Box& b) {
-    return glm::all(glm::lessThanEqual(a.lower, b.upper)) &&
-           glm::all(glm::lessThanEqual(b.lower, a.upper));
+    return widened(box, kAround * h);
   }
 
   [[nodiscard]] Mended apply(const AngleMend& mend) const {
     Mended mended{part_.mesh, {}};
     std::vector<std::uint8_t> goes(part_.faces.size(), 0);
     for (const std::uint32_t f : mend.gone)
-      goes[static_cast<std::size_t>(std::lower_bound(part_.faces.begin(), part_.faces.end(), f) -
-                                    part_.faces.begin())] = 1;
+      goes[part_.face(f)] = 1;
     auto& triangles = mended.mesh.triangles;
     remove_triangles(triangles, goes);
     for (const Triangle& t : mend.faces) {
       mended.changed.push_back(static_cast<std::uint32_t>(triangles.size()));
-      triangles.push_back({part_.index[t[0]], part_.index[t[1]], part_.index[t[2]]});
+      triangles.push_back(part_.triangle(t));
     }
-    if (mend.vertex != kNone) mended.mesh.positions[part_.index[mend.vertex]] = mend.place;
+    if (mend.vertex != kNone) mended.mesh.positions[part_.vertex(mend.vertex)] = mend.place;
     return mended;
   }
 
@@ -231,26 +286,29 @@ class Spot {
     return face != kNone && has_flag(is_changed_, table_.triangle(face));
   }
 
-  FacePart part_;
+  Neighborhood part_;
   const PointGrid& cloud_;
   double h_;
   CornerTable table_;
   FaceGrid faces_;
   std::vector<std::uint8_t> is_changed_;  // per position: a face around it may change
   bool is_at_border_ = false;
-  double beyond_ = 0.0;  // how far points are at first
+  double beyond_ = 0.0;  // how far points may be
 };
 
 class Round {
  public:
   /// @param may_change per position
   Round(TriangleMesh& mesh, const std::vector<std::uint8_t>& may_change, const PointGrid& cloud,
-        double h, double max_turn)
+        double h, const Stage& stage)
       : mesh_(mesh),
         cloud_(cloud),
         h_(h),
-        options_{max_turn, kBorderWay * h},
+        under_(stage.under),
+        beyond_(stage.beyond * h),
+        options_{stage.max_turn, stage.border_way * h, stage.enough},
         table_(mesh.triangles, mesh.positions.size()),
+        cubes_(cubes_of(mesh, h)),
         is_busy_(may_change) {
     for (std::uint8_t& flag : is_busy_)
       flag = flag != 0 ? 0 : 1;
@@ -260,7 +318,7 @@ class Round {
   /// @return number of faces mended
   std::size_t run() {
     std::vector<std::pair<double, std::uint32_t>> order;
-    for (const std::uint32_t f : small_faces(mesh_))
+    for (const std::uint32_t f : small_faces(mesh_, under_))
       order.emplace_back(angle_of(mesh_.positions, mesh_.triangles[f]), f);
     std::sort(order.begin(), order.end());
     for (const auto& [angle, face] : order)
@@ -287,7 +345,7 @@ class Round {
     });
     if (mends.size() > kMostTries) mends.resize(kMostTries);
     if (mends.empty()) return;
-    const Spot spot(mesh_, table_, mends, cloud_, h_);
+    const Spot spot(mesh_, table_, cubes_, mends, cloud_, h_, beyond_);
     const auto best = std::find_if(mends.begin(), mends.end(),
                                    [&](const AngleMend& mend) { return spot.allows(mend); });
     if (best == mends.end()) return;
@@ -330,34 +388,45 @@ class Round {
   TriangleMesh& mesh_;
   const PointGrid& cloud_;
   double h_;
+  double under_;
+  double beyond_;
   AngleMendOptions options_;
   CornerTable table_;
+  Cubes cubes_;
   std::vector<std::uint8_t> is_busy_;  // per position: it or what is around changes, or must not
   std::vector<AngleMend> chosen_;
 };
+
+/// @return number of places where faces changed
+std::size_t mend(TriangleMesh& mesh, const PointGrid& cloud, double h,
+                 std::span<const Stage> stages) {
+  const std::vector<std::uint32_t> faces = small_faces(mesh, stages.front().under);
+  if (faces.empty()) return 0;
+  const std::vector<std::uint8_t> flags = vertices_around(mesh, faces);
+  FacePart part = part_around(mesh, flags, h);
+  std::vector<std::uint8_t> may_change(part.vertices.size());
+  for (std::size_t v = 0; v < may_change.size(); ++v)
+    may_change[v] = flags[part.vertices[v]];
+  std::size_t count = 0;
+  for (const Stage& stage : stages) {
+    for (int round = 0; round < kRounds; ++round) {
+      const std::size_t mended = Round(part.mesh, may_change, cloud, h, stage).run();
+      if (mended == 0) break;
+      count += mended;
+    }
+  }
+  if (count == 0) return 0;
+  put_back(std::move(part), mesh);
+  remove_unused_vertices(mesh);
+  return count;
+}
 
 }  // namespace
 
 SmallAngleReport mend_small_angles(TriangleMesh& mesh, const PointGrid& cloud, double pixel_size) {
   SmallAngleReport report;
-  const std::vector<std::uint32_t> faces = small_faces(mesh);
-  if (faces.empty()) return report;
-  const std::vector<std::uint8_t> flags = vertices_around(mesh, faces);
-  FacePart part = part_around(mesh, flags, pixel_size);
-  std::vector<std::uint8_t> may_change(part.vertices.size());
-  for (std::size_t v = 0; v < may_change.size(); ++v)
-    may_change[v] = flags[part.vertices[v]];
-  for (const double turn : kTurns) {
-    for (int round = 0; round < kRounds; ++round) {
-      const std::size_t mended = Round(part.mesh, may_change, cloud, pixel_size, turn).run();
-      if (mended == 0) break;
-      report.mended += mended;
-    }
-  }
-  report.left = small_faces(part.mesh).size();
-  if (report.mended == 0) return report;
-  put_back(std::move(part), mesh);
-  remove_unused_vertices(mesh);
+  report.mended = mend(mesh, cloud, pixel_size, kSmall) + mend(mesh, cloud, pixel_size, kMedium);
+  report.left = small_faces(mesh, kSmallAngle).size();
   return report;
 }
 

@@ -1,5 +1,6 @@
 #include "core/finish/small_angles.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -18,6 +19,7 @@ using testing::uniform;
 constexpr int kN = 16;
 constexpr double kH = 2.0 / kN;
 constexpr double kTenDegrees = 0.1745;
+constexpr double kThirtyDegrees = 0.5236;
 const Box kRegion{Vec3(-2.5), Vec3(2.5)};
 
 PointGrid grid_of(const std::vector<Vec3>& points) {
@@ -52,7 +54,14 @@ void require_same_topology(const TriangleMesh& before, const TriangleMesh& after
 bool has_gap(const TriangleMesh& mesh, const PointGrid& cloud) {
   const CornerTable table(mesh.triangles, mesh.positions.size());
   const FaceGrid faces(mesh, table, kH);
-  return !find_border_gaps(mesh, table, faces, cloud, {kH, 1.001e-3 * kH}).empty();
+  return !find_border_gaps(mesh, table, faces, cloud, {kH, 0.021 * kH}).empty();
+}
+
+std::size_t faces_under(double angle, const TriangleMesh& mesh) {
+  return static_cast<std::size_t>(
+      std::count_if(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
+        return testing::smallest_angle(TriangleMesh{mesh.positions, {t}, {}}) < angle;
+      }));
 }
 
 TEST_CASE("no angle under ten degrees is left, and of the cloud nothing lies beyond the border") {
@@ -62,19 +71,25 @@ TEST_CASE("no angle under ten degrees is left, and of the cloud nothing lies bey
     p = {uniform(engine, -1, 1), uniform(engine, -1, 1), 0.0};
   const PointGrid cloud = grid_of(points);
   int tried = 0;
+  std::size_t under_thirty = 0, left = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    CAPTURE(seed);
     const TriangleMesh before = sheet(seed);
     if (!self_intersections(before).empty()) continue;
     ++tried;
     TriangleMesh mesh = before;
     const SmallAngleReport report = mend_small_angles(mesh, cloud, kH);
     REQUIRE(report.left == 0);
-    REQUIRE((report.mended > 0) == (testing::smallest_angle(before) < kTenDegrees));
+    REQUIRE((report.mended == 0) == (mesh == before));
+    under_thirty += faces_under(kThirtyDegrees, before);
+    left += faces_under(kThirtyDegrees - 0.002, mesh);
     REQUIRE(testing::smallest_angle(mesh) > kTenDegrees - 0.002);
     require_same_topology(before, mesh);
     REQUIRE(!has_gap(mesh, cloud));
   }
   REQUIRE(tried > 10);
+  REQUIRE(under_thirty > 100);
+  REQUIRE(left < under_thirty / 10);
 }
 
 /// A sheet of squares with a thin face at its border, the longer the higher `i` is; its tip is

@@ -114,6 +114,54 @@ TEST_CASE("rounded edges are left alone") {
   REQUIRE(report.snapped_vertices < count / 100);  // places that look sharp by chance
 }
 
+/// A drum around the x-axis: a round of flat facets between planes x = +-1.
+constexpr int kFacets = 18;
+constexpr double kPi = 3.14159265358979323846;
+double height_over_drum(const Vec3& p) {
+  const double apothem = std::cos(kPi / kFacets);
+  double most = std::abs(p.x) - 1.0;
+  for (int i = 0; i < kFacets; ++i) {
+    const double angle = 2.0 * kPi * i / kFacets;
+    most = std::max(most, p.y * std::cos(angle) + p.z * std::sin(angle) - apothem);
+  }
+  return most;
+}
+/// Onto the drum, along a ray from the middle.
+Vec3 on_drum(const Vec3& direction) {
+  double least = 0.0, most = 3.0;
+  for (int step = 0; step < 60; ++step) {
+    const double middle = 0.5 * (least + most);
+    (height_over_drum(middle * direction) < 0.0 ? least : most) = middle;
+  }
+  return least * direction;
+}
+
+TEST_CASE("no vertex leaves the facets of a drum, and its rims get sharp") {
+  const double h = GENERATE(0.12, 0.14, 0.15);
+  CAPTURE(h);
+  std::mt19937_64 engine(11);
+  const double spacing = h / 2.2;
+  std::vector<Vec3> points(static_cast<std::size_t>(6.0 * kPi / (spacing * spacing)));
+  for (Vec3& p : points)
+    p = turned(on_drum(testing::direction(engine)));
+  const PointGrid cloud(points, kRegion, 0.7 * h);
+  TriangleMesh mesh = testing::sphere(static_cast<int>(2.0 / h));
+  for (Vec3& p : mesh.positions) {
+    // A scan rounds the rims off.
+    Vec3 q = on_drum(p);
+    q.x = std::clamp(q.x, -1.0 + 0.4 * h, 1.0 - 0.4 * h);
+    p = turned(q);
+  }
+  const SnapReport report = snap_features(mesh, cloud, {h, choose_fit_window(mesh, cloud, h)});
+  remove_unused_vertices(mesh);
+  REQUIRE(report_mesh(mesh).is_manifold());
+  REQUIRE(report.snapped_vertices > 0);
+  double highest = -1.0;
+  for (const Vec3& p : mesh.positions)
+    highest = std::max(highest, height_over_drum(turned_back(p)));
+  REQUIRE(highest < 0.15 * h);
+}
+
 TEST_CASE("a sphere has no features, whatever the noise") {
   constexpr double kPixel = 0.06;
   const double noise = GENERATE(0.0, 0.1, 0.3, 0.6) * kPixel;
