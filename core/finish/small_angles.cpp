@@ -35,9 +35,11 @@ constexpr std::array kSmall{Stage{kSmallAngle, kEnough, 0.8, 0.5, kNegligible},
                             Stage{kSmallAngle, kEnough, 0.0, 0.5, 0.02},
                             Stage{kSmallAngle, kEnough, 0.0, 0.5, 0.5}};
 constexpr std::array kMedium{Stage{0.5, 0.52, 0.97, 0.1, kNegligible}};  ///< 30 and 31 degrees
-constexpr int kRounds = 8;                                               ///< of each stage
-constexpr std::size_t kMostTries = 64;                                   ///< of the mends of a face
-constexpr int kRings = 3;       ///< around small angles: what the rounds may change
+constexpr double kFew =
+    0.05;                   ///< of all faces: more with an angle under 30 are what the mesh is like
+constexpr int kRounds = 8;  ///< of each stage
+constexpr std::size_t kMostTries = 64;  ///< of the mends of a face
+constexpr int kRings = 3;               ///< around small angles: what the rounds may change
 constexpr double kReach = 1.0;  ///< in h, of points beyond the border, as in extend_border.h
 /// In h: what is nearer than this to a change tells whether it may be; points within the reach, and
 /// faces that may be nearer to them.
@@ -397,11 +399,12 @@ class Round {
   std::vector<AngleMend> chosen_;
 };
 
+/// @param most faces: where there are more, none is mended
 /// @return number of places where faces changed
 std::size_t mend(TriangleMesh& mesh, const PointGrid& cloud, double h,
-                 std::span<const Stage> stages) {
+                 std::span<const Stage> stages, std::size_t most) {
   const std::vector<std::uint32_t> faces = small_faces(mesh, stages.front().under);
-  if (faces.empty()) return 0;
+  if (faces.empty() || faces.size() > most) return 0;
   const std::vector<std::uint8_t> flags = vertices_around(mesh, faces);
   FacePart part = part_around(mesh, flags, h);
   std::vector<std::uint8_t> may_change(part.vertices.size());
@@ -425,7 +428,10 @@ std::size_t mend(TriangleMesh& mesh, const PointGrid& cloud, double h,
 
 SmallAngleReport mend_small_angles(TriangleMesh& mesh, const PointGrid& cloud, double pixel_size) {
   SmallAngleReport report;
-  report.mended = mend(mesh, cloud, pixel_size, kSmall) + mend(mesh, cloud, pixel_size, kMedium);
+  const std::size_t count = mesh.triangles.size();
+  const auto few = static_cast<std::size_t>(kFew * static_cast<double>(count));
+  report.mended = mend(mesh, cloud, pixel_size, kSmall, count);
+  report.mended += mend(mesh, cloud, pixel_size, kMedium, few);
   report.left = small_faces(mesh, kSmallAngle).size();
   return report;
 }

@@ -39,6 +39,7 @@ constexpr double kSplitReach = 0.7;    // of an edge: it crosses the feature so 
 constexpr double kCornerReach = 1.4;   // of the way from the middle of a face to a vertex
 constexpr double kTaken = 0.35;        // no vertex comes so near to one on a feature
 constexpr double kFaceCosine = 0.5;    // between a face and its side
+constexpr double kRefitNoise = 0.1;    // more tells hardly where a side is from a few points
 constexpr int kLateRounds = 2;         // next to features that are there
 constexpr int kTidyRounds = 3;
 constexpr double kPixelPerEdge = 0.9;  // two triangles a pixel have edges of 1.1 of its side
@@ -206,7 +207,7 @@ class Snapper {
     Surroundings around = surroundings(origin, sides_of(std::move(surfaces), step_at(origin)));
     const double edge = mean_edge_at(v);
     FeaturePlace found = find_feature_place(around, edge, surfaces_[v].residual2);
-    if (found.count == 0) {
+    if (found.count == 0 && std::sqrt(noise2_) <= kRefitNoise * around.pixel_size) {
       around.sides = refit_sides(around);
       found = find_feature_place(around, edge, surfaces_[v].residual2);
     }
