@@ -205,7 +205,7 @@ std::uint32_t CornerTable::split(std::uint32_t face) {
 }
 
 std::uint32_t CornerTable::split_edge(std::uint32_t corner) {
-  assert(names_inner_edge(corner));
+  assert(across_[corner] != kNone);
   const std::uint32_t other = across_[corner];
   const std::uint32_t middle = split(corner / 3);
   flip(other);  // the edge itself now joins the new vertex to the corner beyond it

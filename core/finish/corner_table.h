@@ -116,7 +116,7 @@ class CornerTable {
   /// Splits a face into three at a new vertex, whose index is returned (vertex_count() before).
   std::uint32_t split(std::uint32_t face);
   /// Splits an inner edge at a new vertex, whose index is returned; two faces are added.
-  /// @pre names_inner_edge(corner)
+  /// @pre the half-edge of the corner is none of the boundary
   std::uint32_t split_edge(std::uint32_t corner);
 
  private:

@@ -63,7 +63,7 @@ TEST_CASE("random flips, collapses and splits keep the surface manifold and its 
       default:
         if (engine() % 2 == 0) {
           table.split(c / 3);
-        } else if (table.names_inner_edge(c)) {
+        } else if (table.across(c) != CornerTable::kNone) {
           const std::uint32_t a = table.vertex(c), b = table.head(c);
           const std::uint32_t middle = table.split_edge(c);
           REQUIRE(table.are_neighbors(middle, a));
