@@ -54,7 +54,7 @@ void require_same_topology(const TriangleMesh& before, const TriangleMesh& after
 bool has_gap(const TriangleMesh& mesh, const PointGrid& cloud) {
   const CornerTable table(mesh.triangles, mesh.positions.size());
   const FaceGrid faces(mesh, table, kH);
-  return !find_border_gaps(mesh, table, faces, cloud, {kH, 0.021 * kH}).empty();
+  return !find_border_gaps(mesh, table, faces, cloud, {kH, 1.001e-3 * kH}).empty();
 }
 
 std::size_t faces_under(double angle, const TriangleMesh& mesh) {
