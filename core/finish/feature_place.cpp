@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "core/finish/vertex_geometry.h"
 
@@ -24,6 +23,7 @@ constexpr double kSharperShare = 0.5;    // of the residual of a smooth surface
 constexpr double kBeyond = 0.05;
 constexpr double kBeyondShare = 0.15;  // of the points: so few may lie where the side has ended
 constexpr int kMinSame = 2;            // points, of a side that has not
+constexpr double kSameShare = 0.35;    // of the height of the place or h: these lie as far beyond
 
 /// The points around a place.
 struct Proof {
@@ -77,10 +77,14 @@ bool is_beyond(const Surroundings& around, const Vec3& place, std::size_t own, s
   const SurfaceHeight &on = around.sides[own].height, &over = around.sides[other].height;
   const double height = over.at(place);
   if (std::abs(height) < kBeyond * around.pixel_size) return false;
+  // Points where the two sides meet lie a little above the other, too.
+  const double least = kSameShare * std::min(std::abs(height), around.pixel_size);
   int same = 0, opposite = 0;
   for_each_point(around, place, around.radius, [&](const Vec3& p) {
-    const double h = over.at(p);
-    if (std::abs(on.at(p)) < std::abs(h)) ++(h * height > 0.0 ? same : opposite);
+    const double above = height > 0.0 ? over.at(p) : -over.at(p);
+    if (std::abs(on.at(p)) >= std::abs(above)) return;
+    if (above < 0.0) ++opposite;
+    if (above > least) ++same;
   });
   return same < kMinSame || same <= kBeyondShare * opposite;
 }
@@ -140,11 +144,10 @@ FeaturePlace nearest_edge(const Surroundings& around, double smooth_residual2) {
 FeaturePlace nearest_side(const Surroundings& around, double smooth_residual2,
                           const FeaturePlace& edge) {
   FeaturePlace nearest;
-  for (const auto& [own, other] : {std::pair(edge.sides[0], edge.sides[1]),  //
-                                   std::pair(edge.sides[1], edge.sides[0])}) {
+  for (const std::size_t own : {edge.sides[0], edge.sides[1]}) {
     const std::optional<Vec3> foot = meeting_place({&around.sides[own], 1});
     if (!foot || (nearest.count > 0 && glm::length(nearest.place) <= glm::length(*foot))) continue;
-    if (!is_beyond(around, *foot, own, other)) nearest = {1, *foot, {own}};
+    if (!is_beyond_others(around, *foot, {own})) nearest = {1, *foot, {own}};
   }
   if (nearest.count > 0 && !is_proved(around, smooth_residual2, nearest.place, {})) return {};
   return nearest;

@@ -83,8 +83,8 @@ TEST_CASE("a drawing may take more groups than OpenGL counts in one dimension") 
   shapes::Random random(1);
   constexpr Extent kExtent{90, 80};
   for (int i = 0; i < 270'000; ++i) {
-    positions.emplace_back(random.between(0, lattice::px(kExtent.width)),
-                           random.between(0, lattice::px(kExtent.height)), random.between(0, 1e7));
+    positions.push_back({random.between(0, lattice::px(kExtent.width)),
+                         random.between(0, lattice::px(kExtent.height)), random.between(0, 1e7)});
   }
   const std::vector<DrawItem> items{lattice::points(kExtent, positions, 0, 9)};
   GlRasterizer rasterizer(make_gl_context("osmesa"));

@@ -79,12 +79,16 @@ TriangleSoup make_body(Random& random, std::string& name) {
       return shapes::two_spheres(random.between(0.0, 0.1), 20);
     case 5:
       return saddle(random.between(0.0, 1.0));
-    case 6:
-      return shapes::washer(1.0, random.between(0.1, 0.8), random.between(0.1, 1.0));
+    case 6: {
+      const double height = random.between(0.1, 1.0);  // arguments have no order
+      return shapes::washer(1.0, random.between(0.1, 0.8), height);
+    }
     case 7:
       return spheres(random);
-    case 8:
-      return shapes::pocket(random.between(0.2, 1.5), random.between(0.2, 0.6));
+    case 8: {
+      const double radius = random.between(0.2, 0.6);
+      return shapes::pocket(random.between(0.2, 1.5), radius);
+    }
     case 9:
       return shapes::bowl(1.0, 16);
     default:

@@ -46,9 +46,9 @@ std::vector<Vec3> points_in(const Box& box, double per_square, std::mt19937_64& 
       std::max({size.x * size.y, size.y * size.z, size.z * size.x});  // the box is flat
   std::vector<Vec3> points;
   for (double i = 0.0; i < per_square * area; i += 1.0) {
-    points.emplace_back(uniform(engine, box.lower.x, box.upper.x),
-                        uniform(engine, box.lower.y, box.upper.y),
-                        uniform(engine, box.lower.z, box.upper.z));
+    points.push_back({uniform(engine, box.lower.x, box.upper.x),
+                      uniform(engine, box.lower.y, box.upper.y),
+                      uniform(engine, box.lower.z, box.upper.z)});
   }
   return points;
 }

@@ -18,8 +18,8 @@ constexpr double kSide = 0.4;
 TriangleMesh scattered_vertices(std::size_t count, std::mt19937_64& engine) {
   TriangleMesh mesh;
   for (std::size_t i = 0; i < count; ++i) {
-    mesh.positions.emplace_back(uniform(engine, 0.0, 1.0), uniform(engine, 0.0, 1.0),
-                                uniform(engine, 0.0, 1.0));
+    mesh.positions.push_back(
+        {uniform(engine, 0.0, 1.0), uniform(engine, 0.0, 1.0), uniform(engine, 0.0, 1.0)});
   }
   return mesh;
 }

@@ -47,7 +47,7 @@ TriangleMesh slit_sheet(std::mt19937_64& engine) {
     r = uniform(engine, 0.8, 1.8);
   for (Vec3& p : mesh.positions) {  // no three in a row
     if (std::max(std::abs(p.x), std::abs(p.y)) < 0.5 * kSide - 0.5)
-      p += Vec3(uniform(engine, -0.1, 0.1), uniform(engine, -0.1, 0.1), 0.0);
+      p += Vec3{uniform(engine, -0.1, 0.1), uniform(engine, -0.1, 0.1), 0.0};
   }
   testing::cut_where(mesh, [&](const Vec3& p) {
     const auto row = static_cast<std::size_t>(std::lround(p.y + 0.5 * kSide));

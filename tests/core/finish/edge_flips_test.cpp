@@ -68,7 +68,7 @@ TEST_CASE("flip_for_angles lets no smallest angle shrink") {
       20, [](double, double) { return 0.0; }, 2);
   std::mt19937_64 engine(3);
   for (Vec3& p : mesh.positions)
-    p += 0.015 * Vec3(testing::uniform(engine, -1, 1), testing::uniform(engine, -1, 1), 0.0);
+    p += 0.015 * Vec3{testing::uniform(engine, -1, 1), testing::uniform(engine, -1, 1), 0.0};
   const double before = testing::smallest_angle(mesh);
   CornerTable table(mesh.triangles, mesh.positions.size());
   REQUIRE(flip_for_angles(table, mesh.positions) > 0);

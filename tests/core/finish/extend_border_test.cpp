@@ -105,7 +105,7 @@ TEST_CASE("extend_border follows a curved surface") {
   std::mt19937_64 engine(5);
   std::vector<Vec3> points;
   while (points.size() < 20000) {
-    const Vec3 p(uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 0.2));
+    const Vec3 p{uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 0.2)};
     const double length = glm::length(p);
     if (length > 0.1 && length < 1.0 && p.z < 0.2 * length) points.push_back(p / length);
   }

@@ -37,8 +37,8 @@ TEST_CASE("FaceGrid finds a face nearer than a distance just where there is one"
     const Vec3& corner = mesh.positions[static_cast<std::size_t>(
         uniform(engine, 0.0, static_cast<double>(mesh.positions.size())))];
     if (!table.is_boundary(static_cast<std::uint32_t>(&corner - mesh.positions.data()))) continue;
-    const Vec3 p = corner + Vec3(uniform(engine, -0.1, 0.1), uniform(engine, -0.1, 0.1),
-                                 uniform(engine, -0.1, 0.1));
+    const Vec3 p = corner + Vec3{uniform(engine, -0.1, 0.1), uniform(engine, -0.1, 0.1),
+                                 uniform(engine, -0.1, 0.1)};
     const double distance = distance_to(mesh, p);
     if (distance > 0.9 * kReach) continue;
     REQUIRE(grid.has_face_within(p, 1.001 * distance + 1e-12));

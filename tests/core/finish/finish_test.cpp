@@ -28,11 +28,11 @@ TriangleMesh torn_sphere(int n, std::uint64_t seed) {
   std::vector<Vec3> holes;
   for (int i = 0; i < 6; ++i) {
     holes.push_back(glm::normalize(
-        Vec3(uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1))));
+        Vec3{uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1)}));
   }
   for (Vec3& p : mesh.positions) {
     if (glm::length(p - holes[0]) < 4.0 * h || glm::length(p - holes[1]) < 2.0 * h) {
-      p += 2.0 * h * Vec3(uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1));
+      p += 2.0 * h * Vec3{uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1)};
     }
   }
   testing::cut_where(mesh, [&](const Vec3& p) {
@@ -49,7 +49,7 @@ std::vector<Vec3> sphere_points(std::size_t count, std::uint64_t seed) {
   std::mt19937_64 engine(seed);
   std::vector<Vec3> points;
   while (points.size() < count) {
-    const Vec3 p(uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1));
+    const Vec3 p{uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1)};
     const double length = glm::length(p);
     if (length > 0.1 && length < 1.0) points.push_back(p / length);
   }
@@ -289,8 +289,8 @@ TEST_CASE("two walls that face each other two pixels apart are not bridged", "[f
     mesh.triangles.push_back({count + a, count + c, count + b});
   std::vector<Vec3> points;
   for (double i = 0.0; i < 2.0 * 24.0 * 24.0 / (kSpacing * kSpacing); i += 1.0) {
-    points.emplace_back(testing::uniform(engine, -12.0, 12.0),
-                        testing::uniform(engine, -12.0, 12.0), engine() % 2 == 0 ? 0.0 : kGap);
+    points.push_back({testing::uniform(engine, -12.0, 12.0), testing::uniform(engine, -12.0, 12.0),
+                      engine() % 2 == 0 ? 0.0 : kGap});
   }
   CHECK(bridge_loops(mesh, PointGrid(points, Box{Vec3(-14.0), Vec3(14.0)}, 0.7), 1.0) == 0);
 }
@@ -343,7 +343,7 @@ TEST_CASE("even random crumpling ends without self-intersections") {
   std::mt19937_64 engine(seed);
   TriangleMesh mesh = testing::sphere(24);
   for (Vec3& p : mesh.positions) {
-    p += 0.1 * Vec3(uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1));
+    p += 0.1 * Vec3{uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1)};
   }
   FinishOptions options = options_for(24, FinishMethod::fast);
   options.min_component = 4;

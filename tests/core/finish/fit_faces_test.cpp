@@ -102,7 +102,7 @@ TEST_CASE("no angle under 31 degrees arises, whatever the points ask for") {
   for (Vec3& p : points)
     p = (1.0 + uniform(engine, -0.1, 0.1)) *
         glm::normalize(
-            Vec3(uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1)));
+            Vec3{uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1)});
   TriangleMesh mesh = testing::sphere(8);
   const double before = smallest_sine(mesh);
   fit_faces(mesh, points, {.reach = kReach});

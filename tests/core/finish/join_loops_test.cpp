@@ -57,7 +57,8 @@ std::vector<Vec3> torus_points(std::uint64_t seed, bool has_gap, double gap) {
   std::mt19937_64 engine(seed);
   std::vector<Vec3> points;
   for (int i = 0; i < 40'000; ++i) {
-    const Vec3 p = on_torus(uniform(engine, 0.0, 6.2832), uniform(engine, 0.0, 6.2832));
+    const double u = uniform(engine, 0.0, 6.2832), v = uniform(engine, 0.0, 6.2832);
+    const Vec3 p = on_torus(u, v);
     if (!(has_gap && p.x > 0.0 && std::abs(p.y) < 0.5 * gap)) points.push_back(p);
   }
   return points;

@@ -75,7 +75,7 @@ TEST_CASE("air is where no point is near, as far as points along the border lie 
   std::mt19937_64 engine(seed);
   std::vector<Vec3> points;
   for (int i = 0; i < 2000; ++i)
-    points.emplace_back(uniform(engine, -15, 15), uniform(engine, -15, 15), 0.0);
+    points.push_back({uniform(engine, -15, 15), uniform(engine, -15, 15), 0.0});
   const Box region{Vec3(-20.0), Vec3(20.0)};
   const PointGrid cloud(points, region, 0.7 * kH);
   const std::vector<Vec3> border{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};

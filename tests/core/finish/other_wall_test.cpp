@@ -37,7 +37,7 @@ TriangleMesh open_plate() {
 void add_points(std::vector<Vec3>& points, double z, std::mt19937_64& engine) {
   const auto count = static_cast<int>(kPerPixel * 4.0 * kHalf * kHalf);
   for (int i = 0; i < count; ++i)
-    points.emplace_back(uniform(engine, -kHalf, kHalf), uniform(engine, -kHalf, kHalf), z);
+    points.push_back({uniform(engine, -kHalf, kHalf), uniform(engine, -kHalf, kHalf), z});
 }
 
 bool is_wall(const TriangleMesh& mesh, const std::vector<Vec3>& points, double noise) {

@@ -15,7 +15,7 @@ TEST_CASE("for_each_near visits exactly the points around, and more") {
   std::mt19937_64 engine(6);
   std::vector<Vec3> points;
   for (int i = 0; i < 2000; ++i) {
-    points.emplace_back(uniform(engine, 0, 1), uniform(engine, 0, 1), uniform(engine, 0, 1));
+    points.push_back({uniform(engine, 0, 1), uniform(engine, 0, 1), uniform(engine, 0, 1)});
   }
   points.emplace_back(50.0, 0.0, 0.0);  // outside of the region
   const Box region{Vec3(-0.2), Vec3(1.2)};
@@ -23,8 +23,8 @@ TEST_CASE("for_each_near visits exactly the points around, and more") {
   CAPTURE(cell);
   const PointGrid grid(points, region, cell);
   for (int i = 0; i < 200; ++i) {
-    const Vec3 place(uniform(engine, -0.5, 1.5), uniform(engine, -0.5, 1.5),
-                     uniform(engine, -0.5, 1.5));
+    const Vec3 place{uniform(engine, -0.5, 1.5), uniform(engine, -0.5, 1.5),
+                     uniform(engine, -0.5, 1.5)};
     constexpr double kRadius = 0.11;
     std::size_t expected = 0, found = 0;
     for (const Vec3& p : points)
@@ -52,7 +52,7 @@ TEST_CASE("a thinned grid has as many points in all, with the same mean, and few
   std::mt19937_64 engine(7);
   std::vector<Vec3> points;
   for (int i = 0; i < 5000; ++i) {
-    points.emplace_back(uniform(engine, 0, 1), uniform(engine, 0, 1), uniform(engine, 0, 1));
+    points.push_back({uniform(engine, 0, 1), uniform(engine, 0, 1), uniform(engine, 0, 1)});
   }
   const PointGrid grid(points, {Vec3(-0.1), Vec3(1.1)}, 0.2);
   const int parts = GENERATE(1, 2, 4);
@@ -80,7 +80,7 @@ TEST_CASE("points that face away are left out, and a thinned grid keeps both sid
   std::vector<Vec3> points;  // two sheets, closer to each other than the parts that are thinned
   for (int i = 0; i < 4000; ++i) {
     const double z = i % 2 == 0 ? 0.0 : 0.01;
-    points.emplace_back(uniform(engine, 0, 1), uniform(engine, 0, 1), z);
+    points.push_back({uniform(engine, 0, 1), uniform(engine, 0, 1), z});
   }
   PointGrid grid(points, {Vec3(-0.1), Vec3(1.1)}, 0.2);
   const Vec3 up{0.0, 0.0, 1.0};

@@ -51,7 +51,8 @@ TEST_CASE("next to the edge of a blade, fits to one side are on that side once s
   std::mt19937_64 engine(11);
   std::vector<Vec3> points;
   for (int i = 0; i < 4000; ++i) {
-    points.push_back(on_blade(uniform(engine, 0, 12), uniform(engine, 0, 12), i % 2 == 0 ? 1 : -1));
+    const double x = uniform(engine, 0, 12), y = uniform(engine, 0, 12);
+    points.push_back(on_blade(x, y, i % 2 == 0 ? 1 : -1));
   }
   const Box region{Vec3(-2.0, -2.0, -6.0), Vec3(14.0, 14.0, 6.0)};
   PointGrid cloud(points, region, 0.7 * kH);

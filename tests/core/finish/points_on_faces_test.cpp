@@ -44,7 +44,7 @@ TEST_CASE("points belong to the nearest face within reach and follow it when ver
   std::vector<Vec3> points;
   std::size_t within = 0;
   for (int i = 0; i < 800; ++i) {
-    const Vec3 direction(uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1));
+    const Vec3 direction{uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1)};
     points.push_back(uniform(engine, 0.8, 1.3) * glm::normalize(direction));
     within += distance_to(mesh, points.back()) < kReach ? 1 : 0;
   }
@@ -55,7 +55,7 @@ TEST_CASE("points belong to the nearest face within reach and follow it when ver
 
   constexpr double kMove = 0.02;
   for (Vec3& p : mesh.positions)
-    p += kMove * Vec3(uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1));
+    p += kMove * Vec3{uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1)};
   on_faces.follow(CornerTable(mesh.triangles, mesh.positions.size()), mesh.positions);
   REQUIRE(count_and_check(on_faces, mesh, kMove) == within);
 }

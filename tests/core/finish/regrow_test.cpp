@@ -29,7 +29,7 @@ PointGrid grid_of(const std::vector<Vec3>& points) {
 void add_sheet_points(std::vector<Vec3>& points, double z, std::mt19937_64& engine) {
   constexpr double kHalf = 0.5 * kSide;
   for (int i = 0; i < 6 * kSide * kSide; ++i)
-    points.emplace_back(uniform(engine, -kHalf, kHalf), uniform(engine, -kHalf, kHalf), z);
+    points.push_back({uniform(engine, -kHalf, kHalf), uniform(engine, -kHalf, kHalf), z});
 }
 
 /// The sheet around this height without its middle; turned over, it looks down.

@@ -98,7 +98,7 @@ inline double smallest_angle(const TriangleMesh& mesh) {
 /// A direction, uniform over the sphere.
 inline Vec3 direction(std::mt19937_64& engine) {
   for (;;) {
-    const Vec3 p(uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1));
+    const Vec3 p{uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1)};
     const double length = glm::length(p);
     if (length > 0.1 && length < 1.0) return p / length;
   }
@@ -116,8 +116,10 @@ inline double gaussian(std::mt19937_64& engine) {
 inline std::vector<Vec3> sphere_points(double spacing, double noise, std::mt19937_64& engine) {
   constexpr double kArea = 12.566370614359172;
   std::vector<Vec3> points(static_cast<std::size_t>(kArea / (spacing * spacing)));
-  for (Vec3& p : points)
-    p = direction(engine) + noise * Vec3(gaussian(engine), gaussian(engine), gaussian(engine));
+  for (Vec3& p : points) {
+    p = direction(engine);
+    p += noise * Vec3{gaussian(engine), gaussian(engine), gaussian(engine)};
+  }
   return points;
 }
 

@@ -43,7 +43,7 @@ std::vector<Vec3> cube_points(double radius, double noise, std::uint64_t seed) {
     p[static_cast<int>(engine() % 3)] = engine() % 2 == 0 ? 1.0 : -1.0;
     if (radius > 0.0) p = rounded(p, radius);
     p = turned(p) +
-        noise * Vec3(uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1));
+        noise * Vec3{uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1)};
   }
   return points;
 }
@@ -53,7 +53,7 @@ TriangleMesh scanned_cube(double radius) {
   TriangleMesh mesh = testing::cube(kN);
   std::mt19937_64 engine(9);
   for (Vec3& p : mesh.positions) {
-    p += 0.2 * kH * Vec3(uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1));
+    p += 0.2 * kH * Vec3{uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1)};
     p = turned(rounded(p, std::max(radius, 0.5 * kH)));
   }
   return mesh;
@@ -137,9 +137,10 @@ Vec3 on_drum(const Vec3& direction) {
 }
 
 TEST_CASE("no vertex leaves the facets of a drum, and its rims get sharp") {
-  const double h = GENERATE(0.12, 0.14, 0.15);
-  CAPTURE(h);
-  std::mt19937_64 engine(11);
+  const double h = GENERATE(0.1, 0.12, 0.13, 0.14, 0.15);
+  const int seed = GENERATE(range(0, 8));
+  CAPTURE(h, seed);
+  std::mt19937_64 engine(static_cast<std::uint64_t>(seed));
   const double spacing = h / 2.2;
   std::vector<Vec3> points(static_cast<std::size_t>(6.0 * kPi / (spacing * spacing)));
   for (Vec3& p : points)
@@ -159,7 +160,7 @@ TEST_CASE("no vertex leaves the facets of a drum, and its rims get sharp") {
   double highest = -1.0;
   for (const Vec3& p : mesh.positions)
     highest = std::max(highest, height_over_drum(turned_back(p)));
-  REQUIRE(highest < 0.15 * h);
+  REQUIRE(highest < 0.25 * h);
 }
 
 TEST_CASE("a sphere has no features, whatever the noise") {

@@ -76,7 +76,7 @@ TEST_CASE("a small cone that the points show, and the corners of a cube, are no 
   }
   // As dense on the cone as the surface of it asks for.
   for (int i = 0; i < 40; ++i) {
-    const Vec3 p(uniform(engine, -kH, kH), uniform(engine, -kH, kH), 0.0);
+    const Vec3 p{uniform(engine, -kH, kH), uniform(engine, -kH, kH), 0.0};
     points.emplace_back(p.x, p.y, std::max(0.0, kH - std::sqrt(p.x * p.x + p.y * p.y)));
   }
   std::erase_if(points, [](const Vec3& p) { return p.z == 0.0 && glm::length(p) < kH; });
@@ -85,7 +85,7 @@ TEST_CASE("a small cone that the points show, and the corners of a cube, are no 
   TriangleMesh cube = testing::cube(kN);
   std::vector<Vec3> on_cube;
   for (int i = 0; i < 20000; ++i) {
-    Vec3 p(uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1));
+    Vec3 p{uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1)};
     p[i % 3] = i % 2 == 0 ? 1.0 : -1.0;
     on_cube.push_back(p);
   }

@@ -103,7 +103,7 @@ TEST_CASE("few points give a plane, fewer nothing, and another sheet does not co
       if (std::hypot(p.x, p.y) < kRadius && points.size() < count) points.push_back(p);
     }
     for (std::size_t i = 0; i < 40; ++i)
-      points.emplace_back(uniform(engine, -0.5, 0.5), uniform(engine, -0.5, 0.5), -0.8);
+      points.push_back({uniform(engine, -0.5, 0.5), uniform(engine, -0.5, 0.5), -0.8});
     return fit_surface(PointGrid(points, kRegion, 0.2), Vec3{0.0}, z, {kRadius, 0.5});
   };
   REQUIRE_FALSE(fit_of(5).is_found);

@@ -60,8 +60,8 @@ TEST_CASE("a range image of points has their own depth, without depth steps", "[
   shapes::Random random(1);
   PointCloud cloud;
   for (int i = 0; i < 2000; ++i) {
-    cloud.positions.emplace_back(random.between(-16, 16), random.between(-12, 12),
-                                 -random.between(2, 60));
+    cloud.positions.push_back(
+        {random.between(-16, 16), random.between(-12, 12), -random.between(2, 60)});
   }
   const DrawItem item = DrawPoints{.positions = cloud.positions, .first_id = 7};
   for (const View& view : {images::parallel_view({32, 24}), images::central_view({32, 24})}) {

@@ -76,7 +76,7 @@ TEST_CASE("jittered and folded spheres are judged as CGAL judges them") {
   // triangles.
   const double amount = 0.03 * (1 + seed);
   for (Vec3& p : mesh.positions) {
-    p += amount * Vec3(uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1));
+    p += amount * Vec3{uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1)};
     constexpr double kLattice = 16.0;
     if (seed % 2 == 1) p = glm::round(p * kLattice) / kLattice;
   }

@@ -99,14 +99,14 @@ TriangleMesh soup(std::uint64_t seed, std::size_t count, double size) {
   std::mt19937_64 engine(seed);
   TriangleMesh mesh;
   for (std::size_t i = 0; i < count; ++i) {
-    const Vec3 center(testing::uniform(engine, 0, 1), testing::uniform(engine, 0, 1),
-                      testing::uniform(engine, 0, 1));
+    const Vec3 center{testing::uniform(engine, 0, 1), testing::uniform(engine, 0, 1),
+                      testing::uniform(engine, 0, 1)};
     // A few are large, so that every path of the broad phase is taken.
     const double scale = i % 97 == 0 ? 0.9 : size;
     for (int k = 0; k < 3; ++k) {
-      mesh.positions.push_back(center + scale * Vec3(testing::uniform(engine, -1, 1),
+      mesh.positions.push_back(center + scale * Vec3{testing::uniform(engine, -1, 1),
                                                      testing::uniform(engine, -1, 1),
-                                                     testing::uniform(engine, -1, 1)));
+                                                     testing::uniform(engine, -1, 1)});
     }
     const auto v = static_cast<std::uint32_t>(3 * i);
     mesh.triangles.push_back({v, v + 1, v + 2});

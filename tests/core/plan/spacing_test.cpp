@@ -61,7 +61,7 @@ TEST_CASE("a pixel is chosen for the sparse part of an uneven cloud, not for out
   std::vector<Vec3> with_outliers = lattice(400, 1.0);
   shapes::Random random(7);
   for (int i = 0; i < 3000; ++i)
-    with_outliers.push_back(400.0 * Vec3(random.unit(), random.unit(), 0.05 + random.unit()));
+    with_outliers.push_back(400.0 * Vec3{random.unit(), random.unit(), 0.05 + random.unit()});
   const Spacing even = estimate_spacing(with_outliers);
   CHECK(even.sparse < 1.5 * expected);
   CHECK(pixel_size_from_spacing(even) == Approx(2.2 * expected).epsilon(0.05));
@@ -120,7 +120,7 @@ TEST_CASE("estimate_spacing measures noise that is wider than the nearest points
       double height = 0.0;  // nearly Gaussian
       for (int k = 0; k < 12; ++k)
         height += sigma * random.between(-0.5, 0.5);
-      points.emplace_back(random.between(0.0, 1.0), random.between(0.0, 1.0), height);
+      points.push_back({random.between(0.0, 1.0), random.between(0.0, 1.0), height});
     }
     const Spacing spacing = estimate_spacing(rotated(std::move(points)));
     CHECK(spacing.noise == Approx(sigma).epsilon(0.1));
@@ -142,7 +142,7 @@ TEST_CASE("estimate_spacing does not take the other side of a thin wall for nois
       for (std::size_t i = 0; i < 2 * count; ++i) {
         const double height = i % 2 == 0 ? 0.0 : thickness;
         const double noise = sigma * std::sqrt(3.0) * random.between(-1.0, 1.0);
-        points.emplace_back(random.between(0.0, 1.0), random.between(0.0, 1.0), height + noise);
+        points.push_back({random.between(0.0, 1.0), random.between(0.0, 1.0), height + noise});
       }
       const double noise = estimate_spacing(rotated(std::move(points))).noise;
       CHECK(noise == Approx(sigma).epsilon(0.25).margin(1e-9));
@@ -279,7 +279,7 @@ TEST_CASE("robust_bounds keep a mast on a plane") {
   std::vector<Vec3> points;
   shapes::Random random(9);
   for (int i = 0; i < 30'000; ++i) {
-    points.emplace_back(random.between(-1, 1), random.between(-1, 1), random.between(0, 1e-3));
+    points.push_back({random.between(-1, 1), random.between(-1, 1), random.between(0, 1e-3)});
   }
   points.emplace_back(0.0, 0.0, 0.0);
   for (int i = 0; i <= 1000; ++i)

@@ -65,9 +65,9 @@ TEST_CASE("the weights of a point add up to one, and their offsets to none") {
       shapes::Random random(seed);
       std::vector<Vec3f> positions;
       for (int i = 0; i < 500; ++i) {
-        positions.emplace_back(random.between(px(1), px(kExtent.width - 1)),
-                               random.between(px(1), px(kExtent.height - 1)),
-                               random.between(0, 1e7));
+        positions.push_back({random.between(px(1), px(kExtent.width - 1)),
+                             random.between(px(1), px(kExtent.height - 1)),
+                             random.between(0, 1e7)});
       }
       const auto sums = accumulate(rasterizer, {lattice::points(kExtent, positions)},
                                    lattice::whole_window(kExtent, 0, 4));
