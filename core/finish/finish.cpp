@@ -24,6 +24,7 @@
 #include "core/finish/point_grid.h"
 #include "core/finish/point_sides.h"
 #include "core/finish/regrow.h"
+#include "core/finish/relax_border.h"
 #include "core/finish/remesh.h"
 #include "core/finish/repair.h"
 #include "core/finish/small_angles.h"
@@ -278,7 +279,7 @@ void extend(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& opt
   const ExtendBorderReport extended = extend_border(
       mesh, cloud, {.pixel_size = options.pixel_size, .min_component = options.min_component},
       progress);
-  report.border_steps = extended.steps;
+  report.border_steps += extended.steps;
   report.dropped_components += extended.dropped.components;
   report.dropped_faces += extended.dropped.faces;
 }
@@ -344,6 +345,7 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
   if (is_coarsened) {
     coarsen_to_cloud(mesh, cloud, options, report, progress);
   } else {
+    if (relax_border(mesh, surface, fit)) extend(mesh, cloud, options, report, progress);
     report.small_angles = mend_small_angles(mesh, cloud, h).left;
   }
 }
