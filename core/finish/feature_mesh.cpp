@@ -17,8 +17,8 @@ constexpr std::array kWiderWindows{1.0, 1.3, 1.7};  // where points are few
 constexpr double kCleanResidual = 0.008;  // of the points about a clean surface, beyond the noise
 constexpr double kSureness = 3.0;         // standard deviations
 constexpr int kFitTerms = 6;
-constexpr double kCleanMinCosine = 0.8;  // between the surface and the mesh
-constexpr double kStep = 0.3;            // beyond the noise
+constexpr double kMinCosine = 0.8;  // between the surface and the mesh
+constexpr double kStep = 0.3;       // beyond the noise
 
 }  // namespace
 
@@ -62,7 +62,8 @@ Surroundings FeatureCloud::surroundings(const Vec3& place, std::vector<FeatureSi
 VertexSurface FeatureCloud::surface_at(const Vec3& place, const Vec3& normal) const {
   const double h = h_at(place);
   const auto [fit, scatter] = measured_at(place, normal);
-  if (!fit.is_found || fit.count < kMinFitPoints) return {.residual2 = h * h};
+  if (!fit.is_found || fit.count < kMinFitPoints || !(glm::dot(fit.normal, normal) > kMinCosine))
+    return {.residual2 = h * h};
   // Of pure noise, hardly a mean square is larger.
   const double most_noise = 1.0 + kSureness * std::sqrt(2.0 / (fit.count - kFitTerms));
   const double limit = kCleanResidual * h;
@@ -70,8 +71,7 @@ VertexSurface FeatureCloud::surface_at(const Vec3& place, const Vec3& normal) co
           .normal = fit.normal,
           .bending = fit.bending,
           .residual2 = scatter.noise2,
-          .is_clean = scatter.noise2 < limit * limit + most_noise * noise2() &&
-                      glm::dot(fit.normal, normal) > kCleanMinCosine};
+          .is_clean = scatter.noise2 < limit * limit + most_noise * noise2()};
 }
 
 SurfaceWindow FeatureCloud::window_at(const Vec3& place) const {

@@ -20,6 +20,8 @@ constexpr int kMinPointsOfSide = 2;
 constexpr double kProofSureness = 1.5;   // standard deviations
 constexpr double kProofResidual = 0.06;  // beyond the noise
 constexpr double kSharperShare = 0.5;    // of the residual of a smooth surface
+constexpr double kWidestFoot = 1.3;      // radii around a place on a side beside an edge
+constexpr double kNoSurface = 0.2;       // residual
 constexpr double kBeyond = 0.05;
 constexpr double kBeyondShare = 0.15;  // of the points: so few may lie where the side has ended
 constexpr int kMinSame = 2;            // points, of a side that has not
@@ -71,31 +73,48 @@ bool is_proved(const Surroundings& around, double smooth_residual2, const Vec3& 
   return residual2 && *residual2 - around.noise2 < kSharperShare * smooth_excess;
 }
 
-/// Whether a place on one side lies on the wrong side of another, as hardly a point of the first
-/// does, or where the first has no points.
-bool is_beyond(const Surroundings& around, const Vec3& place, std::size_t own, std::size_t other) {
+/// Of points on one side, how many lie as far over another as a place does, and how many under it.
+struct Beyond {
+  int same = 0, opposite = 0;
+};
+
+Beyond points_beyond(const Surroundings& around, const Vec3& place, double radius, std::size_t own,
+                     std::size_t other) {
   const SurfaceHeight &on = around.sides[own].height, &over = around.sides[other].height;
   const double height = over.at(place);
-  if (std::abs(height) < kBeyond * around.pixel_size) return false;
   // Points where the two sides meet lie a little above the other, too.
   const double least = kSameShare * std::min(std::abs(height), around.pixel_size);
-  int same = 0, opposite = 0;
-  for_each_point(around, place, around.radius, [&](const Vec3& p) {
+  Beyond points;
+  for_each_point(around, place, radius, [&](const Vec3& p) {
     const double above = height > 0.0 ? over.at(p) : -over.at(p);
     if (std::abs(on.at(p)) >= std::abs(above)) return;
-    if (above < 0.0) ++opposite;
-    if (above > least) ++same;
+    if (above < 0.0) ++points.opposite;
+    if (above > least) ++points.same;
   });
-  return same < kMinSame || same <= kBeyondShare * opposite;
+  return points;
 }
 
-/// Whether the place lies where one of the sides that meet there has ended at a third.
+/// Whether a place on one side lies on the wrong side of another, as hardly a point of the first
+/// does, or where the first has no points.
+/// @param widest in radii of the surroundings: so far points are asked if nearer ones do not tell
+bool is_beyond(const Surroundings& around, const Vec3& place, std::size_t own, std::size_t other,
+               double widest) {
+  if (std::abs(around.sides[other].height.at(place)) < kBeyond * around.pixel_size) return false;
+  for (const double wider : kWiderProofs) {
+    if (wider > widest) break;
+    const auto [same, opposite] = points_beyond(around, place, wider * around.radius, own, other);
+    if (same + opposite >= kMinSame) return same < kMinSame || same <= kBeyondShare * opposite;
+  }
+  return true;
+}
+
+/// Whether the place lies where one of the sides that meet there has ended at another.
 bool is_beyond_others(const Surroundings& around, const Vec3& place,
-                      std::initializer_list<std::size_t> meeting) {
+                      std::initializer_list<std::size_t> meeting, double widest = 1.0) {
   for (std::size_t k = 0; k < side_count(around); ++k) {
     if (std::find(meeting.begin(), meeting.end(), k) != meeting.end()) continue;
     for (const std::size_t i : meeting) {
-      if (is_beyond(around, place, i, k)) return true;
+      if (is_beyond(around, place, i, k, widest)) return true;
     }
   }
   return false;
@@ -147,10 +166,20 @@ FeaturePlace nearest_side(const Surroundings& around, double smooth_residual2,
   for (const std::size_t own : {edge.sides[0], edge.sides[1]}) {
     const std::optional<Vec3> foot = meeting_place({&around.sides[own], 1});
     if (!foot || (nearest.count > 0 && glm::length(nearest.place) <= glm::length(*foot))) continue;
-    if (!is_beyond_others(around, *foot, {own})) nearest = {1, *foot, {own}};
+    if (!is_beyond_others(around, *foot, {own}, kWidestFoot)) nearest = {1, *foot, {own}};
   }
   if (nearest.count > 0 && !is_proved(around, smooth_residual2, nearest.place, {})) return {};
   return nearest;
+}
+
+/// On the only side that there is, where the points are no smooth surface at all.
+FeaturePlace only_side(const Surroundings& around, double smooth_residual2) {
+  const double least = kNoSurface * around.pixel_size;
+  if (smooth_residual2 < least * least) return {};
+  const std::optional<Vec3> foot = meeting_place({around.sides.data(), 1});
+  if (!foot || glm::length(*foot) > kMaxMove * around.pixel_size) return {};
+  if (!is_proved(around, smooth_residual2, *foot, {0})) return {};
+  return {1, *foot, {0}};
 }
 
 }  // namespace
@@ -158,6 +187,7 @@ FeaturePlace nearest_side(const Surroundings& around, double smooth_residual2,
 FeaturePlace find_feature_place(const Surroundings& around, double edge, double smooth_residual2) {
   const FeaturePlace corner = nearest_corner(around, smooth_residual2, kCornerReach * edge);
   if (corner.count > 0) return corner;
+  if (side_count(around) == 1) return only_side(around, smooth_residual2);
   const FeaturePlace ridge = nearest_edge(around, smooth_residual2);
   if (ridge.count == 0 || glm::length(ridge.place) <= kEdgeReach * edge) return ridge;
   return nearest_side(around, smooth_residual2, ridge);

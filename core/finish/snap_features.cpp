@@ -123,10 +123,11 @@ class Snapper {
     const Vec3& origin = at(v);
     Surroundings around =
         cloud_.surroundings(origin, sides_of(std::move(surfaces), cloud_.step_at(origin)));
-    if (around.sides.size() < 2) return std::nullopt;
+    if (around.sides.empty()) return std::nullopt;
     const double edge = mean_edge_at(v);
     FeaturePlace found = find_feature_place(around, edge, mesh_.surfaces[v].residual2);
-    if (found.count == 0 && cloud_.noise() <= kRefitNoise * around.pixel_size) {
+    if (found.count == 0 && around.sides.size() > 1 &&
+        cloud_.noise() <= kRefitNoise * around.pixel_size) {
       around.sides = refit_sides(around);
       found = find_feature_place(around, edge, mesh_.surfaces[v].residual2);
     }

@@ -114,6 +114,27 @@ TEST_CASE("rounded edges are left alone") {
   REQUIRE(report.snapped_vertices < count / 100);  // places that look sharp by chance
 }
 
+TEST_CASE("vertices where the cloud has a gap beside an edge come back to the side") {
+  const double from_edge = GENERATE(0.6, 0.8) * kH;
+  const double gap_radius = GENERATE(0.7, 0.9, 1.1, 1.3) * kH;
+  CAPTURE(from_edge / kH, gap_radius / kH);
+  const Vec3 gap = turned({0.0, 1.0, 1.0 - from_edge});
+  std::vector<Vec3> points = cube_points(0.0, 0.0, 5);
+  std::erase_if(points, [&](const Vec3& p) { return glm::distance(p, gap) < gap_radius; });
+  const PointGrid cloud(points, kRegion, 0.7 * kH);
+  TriangleMesh mesh = scanned_cube(0.0);
+  for (Vec3& p : mesh.positions) {
+    if (glm::distance(p, gap) < 0.8 * kH) p += turned({0.0, kH, 0.0});
+  }
+  snap_features(mesh, cloud, options_for(mesh, cloud));
+  remove_unused_vertices(mesh);
+  for (const Vec3& p : mesh.positions) {
+    if (glm::distance(p, gap) > 2.0 * kH) continue;
+    const Vec3 q = glm::abs(turned_back(p));
+    REQUIRE(std::abs(std::max({q.x, q.y, q.z}) - 1.0) < 0.2 * kH);
+  }
+}
+
 /// A drum around the x-axis: a round of flat facets between planes x = +-1.
 constexpr int kFacets = 18;
 constexpr double kPi = 3.14159265358979323846;
