@@ -10,6 +10,7 @@
 #include "core/finish/point_grid.h"
 #include "core/finish/snap_features.h"
 #include "core/finish/surface_fit.h"
+#include "core/mesh/triangle_mesh.h"
 
 namespace rangezip {
 
@@ -18,26 +19,27 @@ struct VertexSurface {
   Vec3 center{0.0};
   Vec3 normal{0.0};
   Mat3 bending{0.0};
-  double residual2 = 0.0;  ///< mean square distance of the points
+  double residual2 = 0.0;  ///< mean square distance of the points; h^2 where there is no surface
   bool is_clean = false;   ///< the points lie on it, but for noise
 };
 
 /// What a surface is over a place, relative to that place.
 [[nodiscard]] FeatureSide seen_from(const Vec3& place, const VertexSurface& surface, double weight);
 
-/// The sides that meet in a vertex on a feature.
+/// The sides that meet in a vertex on a feature, relative to a place.
 struct Feature {
-  Vec3 origin{0.0};  ///< where the vertex was
+  Vec3 origin{0.0};  ///< the place: where the vertex was, or next to where it is
   std::vector<FeatureSide> sides;
 };
 
-/// A mesh, what is known at each of its vertices, and which of these are on features.
+/// A mesh, what is known at each of its vertices, and which of these are on features. Positions are
+/// those of the mesh, which is to outlive this; its triangles are made anew from the table.
 struct FeatureMesh {
   std::vector<Vec3>& positions;
   CornerTable table;
   std::vector<VertexSurface> surfaces;
   std::vector<Feature> features;         ///< without sides except on edges
-  std::vector<std::uint8_t> is_feature;  ///< 1 on an edge, 2 at a corner
+  std::vector<std::uint8_t> is_feature;  ///< 1 on an edge, 2 at a corner, 0 elsewhere
 
   explicit FeatureMesh(TriangleMesh& mesh);
 
@@ -58,7 +60,9 @@ class FeatureCloud {
 
   /// Mean square distance of points from the surface.
   [[nodiscard]] double noise2() const { return options_.fit.noise * options_.fit.noise; }
+  /// Its root.
   [[nodiscard]] double noise() const { return options_.fit.noise; }
+  /// h, in proportion to the sizes of triangles there.
   [[nodiscard]] double h_at(const Vec3& place) const {
     return options_.pixel_size * options_.sizes.at(place);
   }
@@ -68,6 +72,7 @@ class FeatureCloud {
   [[nodiscard]] Surroundings surroundings(const Vec3& place, std::vector<FeatureSide> sides) const;
 
   /// The surface around a vertex: clean if the scatter of the points is hardly more than noise.
+  /// None is found where they are few, or it looks more than 37 degrees away from the mesh.
   [[nodiscard]] VertexSurface surface_at(const Vec3& place, const Vec3& normal) const;
 
  private:

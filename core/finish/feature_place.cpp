@@ -73,7 +73,8 @@ bool is_proved(const Surroundings& around, double smooth_residual2, const Vec3& 
   return residual2 && *residual2 - around.noise2 < kSharperShare * smooth_excess;
 }
 
-/// Of points on one side, how many lie as far over another as a place does, and how many under it.
+/// Points nearer to one side than to another: how many are on the place's side of the other, by
+/// kSameShare of as far at least, and how many on its far side.
 struct Beyond {
   int same = 0, opposite = 0;
 };

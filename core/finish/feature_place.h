@@ -32,7 +32,8 @@ struct FeaturePlace {
 
 /// The nearest corner if it is closer than 0.8 `edge`, the nearest edge if it is closer than half
 /// of it, else the place on the nearer of the two sides that meet there; with one side only, the
-/// place on it where the points are no smooth surface at all (0.2 h). A place counts only if the
+/// place on it, if that is within 2.5 h and the points are off a smooth surface by 0.2 h or more
+/// (root mean square). A place counts only if the
 /// points of the cloud around it lie on the sides, some on each that meets there, much closer than
 /// on a smooth surface, and if it lies on no side beyond where that ends at another, be that only a
 /// little bent from it.

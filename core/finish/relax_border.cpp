@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/finish/corner_table.h"
+#include "core/finish/feature_sides.h"
 #include "core/finish/relax_features.h"
 #include "core/finish/surface_fit.h"
 #include "core/finish/vertex_geometry.h"
@@ -17,7 +18,6 @@ namespace {
 
 constexpr int kRounds = 4;
 // Angles are cosines.
-constexpr double kSmooth = 0.94;       // between the faces around a vertex and its normal
 constexpr double kFitMinCosine = 0.6;  // between the fitted surface and the mesh
 constexpr double kFaceCosine = 0.5;    // between a face and the mesh
 constexpr std::uint8_t kCorner = 2;    // relax_features() moves none
@@ -30,13 +30,15 @@ std::vector<std::uint8_t> border_of(const CornerTable& table) {
   return is_border;
 }
 
-bool is_smooth(const CornerTable& table, const std::vector<Vec3>& positions, std::uint32_t v,
-               const Vec3& normal) {
-  bool smooth = true;
+/// Whether a feature may run through a vertex.
+bool has_crease(const CornerTable& table, const std::vector<Vec3>& positions, std::uint32_t v) {
+  bool found = false;
   table.for_each_corner(v, [&](std::uint32_t c) {
-    smooth = smooth && has_cosine(face_area_vector(table, positions, c / 3), normal, kSmooth);
+    if (found || table.across(c) == CornerTable::kNone) return;
+    found = !has_cosine(face_area_vector(table, positions, c / 3),
+                        face_area_vector(table, positions, table.across(c) / 3), kFeatureCosine);
   });
-  return smooth;
+  return found;
 }
 
 /// Moves what does not stay.
@@ -44,9 +46,12 @@ void relax(TriangleMesh& mesh, const std::vector<std::uint8_t>& stays, const Poi
            const FitWindow& fit) {
   CornerTable table(mesh.triangles, mesh.positions.size());
   std::vector<Vec3>& positions = mesh.positions;
+  const auto may_change = [&](std::uint32_t v) {
+    return stays[v] == 0 && !has_crease(table, positions, v);
+  };
   const auto place_on = [&](std::uint32_t v, const Vec3& target) -> std::optional<Vec3> {
+    if (!may_change(v)) return std::nullopt;
     const Vec3 normal = vertex_normal(table, positions, v);
-    if (stays[v] != 0 || !is_smooth(table, positions, v, normal)) return std::nullopt;
     const SurfaceFit found = fit_surface(surface, target, normal, fit.at(target));
     if (!found.is_found || glm::dot(found.normal, normal) < kFitMinCosine) return std::nullopt;
     return target + found.height * normal;
@@ -54,7 +59,7 @@ void relax(TriangleMesh& mesh, const std::vector<std::uint8_t>& stays, const Poi
   const auto may_face = [&](std::uint32_t v, const Vec3& direction) {
     return has_cosine(vertex_normal(table, positions, v), direction, kFaceCosine);
   };
-  relax_features(table, positions, border_of(table), {place_on, may_face});
+  relax_features(table, positions, border_of(table), {place_on, may_change, may_face});
   mesh.triangles = table.triangles();
 }
 

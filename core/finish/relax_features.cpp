@@ -152,11 +152,11 @@ class Relaxer {
 
   void turn_edges(std::uint32_t v) {
     const std::uint32_t first = table_.corner_of(v);
-    if (first == CornerTable::kNone) return;
+    if (first == CornerTable::kNone || !sides_.may_change(v)) return;
     std::uint32_t worst = CornerTable::kNone;
     double most = kGain;
     table_.for_each_corner(v, [&](std::uint32_t c) {
-      if (table_.across(c) == CornerTable::kNone) return;
+      if (table_.across(c) == CornerTable::kNone || !sides_.may_change(table_.head(c))) return;
       const Diamond d(table_, c);
       if (!is_one_side(d)) return;
       const double gain = angle_after_flip(positions_, d) - angle_before_flip(positions_, d);
@@ -169,8 +169,8 @@ class Relaxer {
 
   /// Where relaxing did not open a fold or a small angle, the vertex goes.
   void mend(std::uint32_t v) {
-    if (table_.corner_of(v) == CornerTable::kNone || smallest_angle(v, at(v)) >= kSmallAngle)
-      return;
+    if (table_.corner_of(v) == CornerTable::kNone || !sides_.may_change(v)) return;
+    if (smallest_angle(v, at(v)) >= kSmallAngle) return;
     double best = kSmallAngle;
     std::uint32_t into = CornerTable::kNone;
     table_.for_each_corner(v, [&](std::uint32_t c) {

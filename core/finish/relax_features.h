@@ -15,6 +15,8 @@ struct VertexSides {
   /// The place on the surface, or on the feature that the vertex belongs to, next to a target;
   /// nothing where neither is known.
   std::function<std::optional<Vec3>(std::uint32_t vertex, const Vec3& target)> place_on;
+  /// Whether the vertex may be collapsed, and its edges turned.
+  std::function<bool(std::uint32_t vertex)> may_change;
   /// Whether a face at the vertex may look along `direction`, of any length: about as the surface,
   /// or one of the sides of the feature, does. True where nothing is known.
   std::function<bool(std::uint32_t vertex, const Vec3& direction)> may_face;

@@ -57,7 +57,7 @@ class Snapper {
         static_cast<std::size_t>(std::count(mesh_.is_feature.begin(), mesh_.is_feature.end(), 0));
     progress.check_stop();
     if (report.snapped_vertices == 0) {
-      mesh_.positions = before;  // sides without an edge between them
+      mesh_.positions = before;  // no edge anywhere: then nothing was to be sharp
       return report;
     }
     for (int round = 0; round < kTidyRounds; ++round) {
@@ -70,8 +70,9 @@ class Snapper {
       report.split_edges += split_cut_corners(mesh_, cloud_);
       relax_features(
           mesh_.table, mesh_.positions, mesh_.is_feature,
-          {[&](std::uint32_t v, const Vec3& target) { return place_on(v, target); },
-           [&](std::uint32_t v, const Vec3& direction) { return may_face(v, direction); }});
+          {.place_on = [&](std::uint32_t v, const Vec3& target) { return place_on(v, target); },
+           .may_change = [](std::uint32_t) { return true; },
+           .may_face = [&](std::uint32_t v, const Vec3& d) { return may_face(v, d); }});
     }
     return report;
   }

@@ -11,8 +11,9 @@ namespace rangezip {
 /// @return how many. Cost: one pass over the edges, and the points around those that cross.
 std::size_t split_crossing_edges(FeatureMesh& mesh, const FeatureCloud& cloud);
 
-/// Splits faces between three edges of features, at the corner where the three sides meet that meet
-/// in pairs at their vertices, if the points lie on these and no vertex is there yet.
+/// Splits the longest edge of faces whose three vertices are on edges of features, at the corner
+/// where the three sides meet that meet in pairs at their vertices, if the points lie on these and
+/// no vertex is there yet.
 /// @return how many. Cost: one pass over the faces, and the points around those that cut a corner.
 std::size_t split_cut_corners(FeatureMesh& mesh, const FeatureCloud& cloud);
 

@@ -72,7 +72,8 @@ TEST_CASE("closest_point_on_triangle is on the triangle and nearest to the point
     const Vec3 a = random.direction();
     const Vec3 b = random.direction();
     const Vec3 c = random.direction();
-    const Vec3 p = random.between(0.0, 2.0) * random.direction();
+    const double length = random.between(0.0, 2.0);
+    const Vec3 p = length * random.direction();
     const Vec3 q = closest_point_on_triangle(p, a, b, c);
     const double distance = glm::length(q - p);
     const double longest = std::max({glm::length(b - a), glm::length(c - a), glm::length(c - b)});
@@ -156,9 +157,11 @@ TEST_CASE("closest_point_on_triangle is right for slivers and needles of any hei
         const std::array<double, 4> thirds{0.3, -0.5, random.unit(), 1.0 - height};
         const FlatTriangle flat{thirds[seed % 4], height};
         const bool is_above = seed % 8 < 4;
-        const Vec3 point = is_above ? Vec3{random.unit(), height * random.unit(), away}
-                                    : Vec3{random.between(-1, 2), height * random.unit(), 0.0} +
-                                          away * random.direction();
+        Vec3 point{random.unit(), height * random.unit(), away};
+        if (!is_above) {
+          point = {random.between(-1, 2), height * random.unit(), 0.0};
+          point += away * random.direction();
+        }
         check_closest_point(flat, point, random);
       }
     }
@@ -185,7 +188,8 @@ TEST_CASE("closest_point_on_triangle of a rounded point of a segment is on the s
     const Vec3 a = random.direction();
     const Vec3 b = random.direction();
     const Vec3 c = a + 0.3 * (b - a);
-    const Vec3 p = random.between(0.0, 2.0) * random.direction();
+    const double length = random.between(0.0, 2.0);
+    const Vec3 p = length * random.direction();
     const double share = std::clamp(glm::dot(b - a, p - a) / glm::dot(b - a, b - a), 0.0, 1.0);
     const double distance = glm::length(a + share * (b - a) - p);
     // A few roundings of coordinates up to 2.

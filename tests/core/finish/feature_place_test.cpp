@@ -63,6 +63,20 @@ TEST_CASE("an edge does not go on beyond the corner where it ends") {
   if (feature.count > 0) REQUIRE(around.origin.z + feature.place.z < 0.05 * kH);
 }
 
+TEST_CASE("the only side takes a place in if no smooth surface is around that and it is not far") {
+  const PointGrid cloud = corner_cloud(6);
+  const auto found = [&](double way, double residual) {
+    Surroundings around{cloud, kH, 1.5 * kH, 0.0, {-0.5, -0.5, way * kH}, {}};
+    around.sides.push_back({{way * kH, Vec3(0.0, 0.0, 1.0), Mat3(0.0)}, 1.0});
+    return find_feature_place(around, kH, residual * residual * kH * kH);
+  };
+  const FeaturePlace near = found(0.7, 1.0);
+  REQUIRE(near.count == 1);
+  REQUIRE(glm::distance(near.place, Vec3(0.0, 0.0, -0.7 * kH)) < 1e-12);
+  REQUIRE(found(0.7, 0.19).count == 0);
+  REQUIRE(found(2.6, 1.0).count == 0);
+}
+
 TEST_CASE("no place is found where points are not on the sides, or the surface is smooth as well") {
   const PointGrid cloud = corner_cloud(5);
   Surroundings around = corner_seen_from(cloud, {-0.2 * kH, -0.3 * kH, -0.5});

@@ -99,10 +99,10 @@ TEST_CASE("vertices slide onto the edges of a cube that the mesh cuts off") {
 TEST_CASE("no angle under 31 degrees arises, whatever the points ask for") {
   std::mt19937_64 engine(3);
   std::vector<Vec3> points(4000);
-  for (Vec3& p : points)
-    p = (1.0 + uniform(engine, -0.1, 0.1)) *
-        glm::normalize(
-            Vec3{uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1)});
+  for (Vec3& p : points) {
+    const double radius = 1.0 + uniform(engine, -0.1, 0.1);
+    p = radius * testing::direction(engine);
+  }
   TriangleMesh mesh = testing::sphere(8);
   const double before = smallest_sine(mesh);
   fit_faces(mesh, points, {.reach = kReach});

@@ -1,7 +1,9 @@
 #include "core/finish/relax_border.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <random>
 #include <utility>
@@ -52,7 +54,7 @@ std::vector<Vec3> saddle_points(double level, double slope) {
   return points;
 }
 
-/// Mean sine of the smallest angles of the faces with a corner within two edges of the border.
+/// Mean sine of the smallest angles of the faces whose middle is within 2 h of the border.
 double mean_angle_at_border(const TriangleMesh& mesh) {
   double sum = 0.0;
   int count = 0;
@@ -88,10 +90,12 @@ TEST_CASE("angles along the border get better on the surface, and the border sta
   REQUIRE(mean_angle_at_border(mesh) > mean_angle_at_border(before) + 0.05);
   for (const Vec3& p : mesh.positions)
     REQUIRE(std::abs(p.z - 0.25 * p.x * p.y) < 1e-3 * kH);
+  const auto edges_after = faces_of_edges(mesh);
   for (const auto& [edge, count] : faces_of_edges(before)) {
     if (count != 1) continue;
-    REQUIRE(faces_of_edges(mesh)[edge] == 1);
+    REQUIRE(edges_after.at(edge) == 1);
     REQUIRE(mesh.positions[edge.first] == before.positions[edge.first]);
+    REQUIRE(mesh.positions[edge.second] == before.positions[edge.second]);
   }
   REQUIRE(self_intersections(mesh).empty());
 }
@@ -114,6 +118,30 @@ TEST_CASE("what is far from the border does not move, nor anything of a closed m
   REQUIRE(ball.triangles == ball_before.triangles);
 }
 
+TEST_CASE("vertices on a crease that reaches the border stay on it") {
+  std::mt19937_64 engine(4);
+  TriangleMesh mesh;
+  add_sheet(mesh, 0.0, engine);
+  constexpr double kSlope = 0.32;  // either way: two planes 36 degrees apart
+  const auto on_roof = [&](const Vec3& p) { return Vec3(p.x, p.y, -kSlope * std::abs(p.x)); };
+  for (Vec3& p : mesh.positions) {
+    if (std::abs(p.x) < 0.36 * kH) p.x = 0.0;
+    p = on_roof(p);
+  }
+  const TriangleMesh before = mesh;
+  std::vector<Vec3> points = saddle_points(0.0, 0.0);
+  for (Vec3& p : points)
+    p = on_roof(p);
+  relax_border(mesh, PointGrid(points, kRegion, 0.7 * kH), kFit);
+  int on_crease = 0;
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    if (before.positions[v].x != 0.0) continue;
+    REQUIRE(mesh.positions[v] == before.positions[v]);
+    ++on_crease;
+  }
+  REQUIRE(on_crease == kN + 1);
+}
+
 TEST_CASE("sheets that one tilted surface would pull through each other do not cross") {
   TriangleMesh mesh;
   for (const double level : {0.0, 0.1 * kH}) {
@@ -121,8 +149,10 @@ TEST_CASE("sheets that one tilted surface would pull through each other do not c
     add_sheet(mesh, level, engine);
   }
   REQUIRE(self_intersections(mesh).empty());
+  const double angle_before = mean_angle_at_border(mesh);
   const PointGrid cloud(saddle_points(0.0, 0.02), kRegion, 0.7 * kH);
-  relax_border(mesh, cloud, kFit);
+  REQUIRE(relax_border(mesh, cloud, kFit));
+  REQUIRE(mean_angle_at_border(mesh) > angle_before);
   REQUIRE(self_intersections(mesh).empty());
   REQUIRE(report_mesh(mesh).is_manifold());
 }

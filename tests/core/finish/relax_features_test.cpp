@@ -64,21 +64,24 @@ TriangleMesh relaxed(TriangleMesh mesh) {
   std::vector<Vec3> before = mesh.positions;
   for (const Vec3& p : before)
     is_feature.push_back(static_cast<std::uint8_t>(planes_through(p) - 1));
-  const VertexSides sides{[&](std::uint32_t v, const Vec3& target) -> std::optional<Vec3> {
-                            Vec3 place = target;
-                            for (int axis = 0; axis < 3; ++axis) {
-                              if (is_on(before[v][axis])) place[axis] = before[v][axis];
-                            }
-                            return place;
-                          },
-                          [&](std::uint32_t v, const Vec3& direction) {
-                            for (int axis = 0; axis < 3; ++axis) {
-                              if (is_on(before[v][axis]) &&
-                                  before[v][axis] * direction[axis] > 0.5 * glm::length(direction))
-                                return true;
-                            }
-                            return false;
-                          }};
+  const VertexSides sides{
+      .place_on = [&](std::uint32_t v, const Vec3& target) -> std::optional<Vec3> {
+        Vec3 place = target;
+        for (int axis = 0; axis < 3; ++axis) {
+          if (is_on(before[v][axis])) place[axis] = before[v][axis];
+        }
+        return place;
+      },
+      .may_change = [](std::uint32_t) { return true; },
+      .may_face =
+          [&](std::uint32_t v, const Vec3& direction) {
+            for (int axis = 0; axis < 3; ++axis) {
+              if (is_on(before[v][axis]) &&
+                  before[v][axis] * direction[axis] > 0.5 * glm::length(direction))
+                return true;
+            }
+            return false;
+          }};
   CornerTable table(mesh.triangles, mesh.positions.size());
   relax_features(table, mesh.positions, is_feature, sides);
   mesh.triangles = table.triangles();

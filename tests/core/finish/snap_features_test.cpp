@@ -1,5 +1,6 @@
 #include "core/finish/snap_features.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -123,15 +124,18 @@ TEST_CASE("vertices where the cloud has a gap beside an edge come back to the si
   std::erase_if(points, [&](const Vec3& p) { return glm::distance(p, gap) < gap_radius; });
   const PointGrid cloud(points, kRegion, 0.7 * kH);
   TriangleMesh mesh = scanned_cube(0.0);
+  int displaced = 0;
   for (Vec3& p : mesh.positions) {
-    if (glm::distance(p, gap) < 0.8 * kH) p += turned({0.0, kH, 0.0});
+    if (glm::distance(p, gap) >= 0.8 * kH) continue;
+    p += turned({0.0, kH, 0.0});
+    ++displaced;
   }
+  REQUIRE(displaced > 0);
   snap_features(mesh, cloud, options_for(mesh, cloud));
   remove_unused_vertices(mesh);
   for (const Vec3& p : mesh.positions) {
     if (glm::distance(p, gap) > 2.0 * kH) continue;
-    const Vec3 q = glm::abs(turned_back(p));
-    REQUIRE(std::abs(std::max({q.x, q.y, q.z}) - 1.0) < 0.2 * kH);
+    REQUIRE(distance_to_cube(p) < 0.2 * kH);
   }
 }
 
@@ -177,11 +181,11 @@ TEST_CASE("no vertex leaves the facets of a drum, and its rims get sharp") {
   const SnapReport report = snap_features(mesh, cloud, {h, choose_fit_window(mesh, cloud, h)});
   remove_unused_vertices(mesh);
   REQUIRE(report_mesh(mesh).is_manifold());
-  REQUIRE(report.snapped_vertices > 0);
+  REQUIRE(static_cast<double>(report.snapped_vertices) > 0.8 * 4.0 * kPi / h);  // of two rims
   double highest = -1.0;
   for (const Vec3& p : mesh.positions)
     highest = std::max(highest, height_over_drum(turned_back(p)));
-  REQUIRE(highest < 0.25 * h);
+  REQUIRE(highest < 0.25 * h);  // two facets are taken for one side where points are few
 }
 
 TEST_CASE("a sphere has no features, whatever the noise") {

@@ -23,7 +23,8 @@ using test::TemporaryFolder;
 TriangleMesh random_mesh(std::uint64_t seed, std::uint32_t vertices) {
   shapes::Random random(seed);
   const auto any = [&random] {
-    return std::ldexp(random.between(-1, 1), static_cast<int>(random.bits() % 120) - 60);
+    const double mantissa = random.between(-1, 1);
+    return std::ldexp(mantissa, static_cast<int>(random.bits() % 120) - 60);
   };
   TriangleMesh mesh;
   for (std::uint32_t i = 0; i < vertices; ++i) {

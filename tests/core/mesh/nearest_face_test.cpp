@@ -29,7 +29,8 @@ TEST_CASE("the walk over a convex body reaches the nearest face from anywhere on
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     CAPTURE(seed);
     shapes::Random random(seed);
-    const Vec3 point = random.between(1.0, 2.0) * random.direction();
+    const double length = random.between(1.0, 2.0);
+    const Vec3 point = length * random.direction();
     const auto start = static_cast<std::uint32_t>(random.bits() % mesh.triangles.size());
     const NearestFace found = walk_to_nearest_face(mesh, edges, start, point);
     REQUIRE(found.squared_distance <= nearest_of_all(mesh, point).squared_distance * (1 + 1e-12));

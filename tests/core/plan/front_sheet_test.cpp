@@ -53,7 +53,8 @@ TEST_CASE("PointProjector finds the pixel and the depth that the rasterizer draw
   for (int round = 0; round < 200; ++round) {
     CAPTURE(round);
     const Vec3 direction = random.direction();
-    const Vec3 point = random.unit() * random.direction();
+    const double length = random.unit();
+    const Vec3 point = length * random.direction();
     const Mat4 placement = shapes::translation({50.0, 20.0, -10.0}) * shapes::tilt();
     const Box bounds{Vec3(49.0, 19.0, -11.0), Vec3(51.0, 21.0, -9.0)};
     FramedCamera framed = frame_box(bounds, direction, 0.05);

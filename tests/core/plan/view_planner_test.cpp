@@ -113,8 +113,10 @@ TEST_CASE("plan_views move with the cloud") {
 TEST_CASE("plan_views ignore far outliers") {
   std::vector<Vec3> points = points_on(shapes::sphere());
   shapes::Random random(3);
-  for (int i = 0; i < 200; ++i)
-    points.push_back(random.between(50, 500) * random.direction());
+  for (int i = 0; i < 200; ++i) {
+    const double length = random.between(50, 500);
+    points.push_back(length * random.direction());
+  }
   const ViewPlan plan = plan_for(points);
   CHECK(plan.coverage.back() > 0.995);
   CHECK(plan.directions.size() <= 8);

@@ -94,8 +94,10 @@ TEST_CASE("frame_box shows the whole box with pixels of the asked size", "[view]
     CAPTURE(seed);
     shapes::Random random(seed);
     Box box;
-    for (int i = 0; i < 3; ++i)
-      box.add(random.between(0.1, 10.0) * random.direction());
+    for (int i = 0; i < 3; ++i) {
+      const double length = random.between(0.1, 10.0);
+      box.add(length * random.direction());
+    }
     const double size = random.between(0.01, 0.1);
     const int margin = static_cast<int>(random.bits() % 6);
     const FramedCamera framed = frame_box(box, random.direction(), size, margin);

@@ -13,7 +13,8 @@ namespace {
 
 /// A camera anywhere, looking at a point near the origin.
 Camera random_camera(shapes::Random& random, bool perspective) {
-  const Vec3 eye = random.between(4.0, 6.0) * random.direction();
+  const double length = random.between(4.0, 6.0);
+  const Vec3 eye = length * random.direction();
   const Vec3 target = 0.5 * random.direction();
   Camera camera = look_at(eye, target, random.direction());
   if (perspective) {
