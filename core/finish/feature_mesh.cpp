@@ -46,11 +46,6 @@ void FeatureMesh::split(std::uint32_t corner, const Vec3& place, Feature feature
   is_feature.push_back(kind);
 }
 
-bool FeatureMesh::is_taken(std::uint32_t vertex, const Vec3& place, double distance,
-                           std::uint8_t least) const {
-  return is_feature[vertex] >= least && glm::distance(positions[vertex], place) < distance;
-}
-
 double FeatureCloud::step_at(const Vec3& place) const {
   return kStep * h_at(place) + kSureness * noise();
 }

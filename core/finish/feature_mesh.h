@@ -45,10 +45,6 @@ struct FeatureMesh {
 
   /// Splits the edge of a corner at a place that is on a feature: 1 an edge, 2 a corner.
   void split(std::uint32_t corner, const Vec3& place, Feature feature, std::uint8_t kind);
-
-  /// Whether a vertex on a feature of this kind or more is next to a place.
-  [[nodiscard]] bool is_taken(std::uint32_t vertex, const Vec3& place, double distance,
-                              std::uint8_t least) const;
 };
 
 /// The cloud around the places of a mesh, with the lengths that count there.

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/finish/corner_table.h"
-#include "core/finish/feature_sides.h"
 #include "core/finish/relax_features.h"
 #include "core/finish/surface_fit.h"
 #include "core/finish/vertex_geometry.h"
@@ -34,16 +33,15 @@ std::vector<std::uint8_t> border_of(const CornerTable& table) {
 bool has_crease(const CornerTable& table, const std::vector<Vec3>& positions, std::uint32_t v) {
   bool found = false;
   table.for_each_corner(v, [&](std::uint32_t c) {
-    if (found || table.across(c) == CornerTable::kNone) return;
-    found = !has_cosine(face_area_vector(table, positions, c / 3),
-                        face_area_vector(table, positions, table.across(c) / 3), kFeatureCosine);
+    if (table.across(c) == CornerTable::kNone) return;
+    found = found || is_crease(table, positions, c);
   });
   return found;
 }
 
 /// Moves what does not stay.
-void relax(TriangleMesh& mesh, const std::vector<std::uint8_t>& stays, const PointGrid& surface,
-           const FitWindow& fit) {
+void relax(TriangleMesh& mesh, const std::vector<std::uint8_t>& is_border,
+           const std::vector<std::uint8_t>& stays, const PointGrid& surface, const FitWindow& fit) {
   CornerTable table(mesh.triangles, mesh.positions.size());
   std::vector<Vec3>& positions = mesh.positions;
   const auto may_change = [&](std::uint32_t v) {
@@ -59,24 +57,20 @@ void relax(TriangleMesh& mesh, const std::vector<std::uint8_t>& stays, const Poi
   const auto may_face = [&](std::uint32_t v, const Vec3& direction) {
     return has_cosine(vertex_normal(table, positions, v), direction, kFaceCosine);
   };
-  relax_features(table, positions, border_of(table), {place_on, may_change, may_face});
+  relax_features(table, positions, is_border, {place_on, may_change, may_face});
   mesh.triangles = table.triangles();
-}
-
-bool has_border(const TriangleMesh& mesh) {
-  const CornerTable table(mesh.triangles, mesh.positions.size());
-  const std::vector<std::uint8_t> is_border = border_of(table);
-  return std::find(is_border.begin(), is_border.end(), kCorner) != is_border.end();
 }
 
 }  // namespace
 
 bool relax_border(TriangleMesh& mesh, const PointGrid& surface, const FitWindow& fit) {
-  if (!has_border(mesh)) return false;
+  const std::vector<std::uint8_t> is_border =
+      border_of(CornerTable(mesh.triangles, mesh.positions.size()));
+  if (std::find(is_border.begin(), is_border.end(), kCorner) == is_border.end()) return false;
   const TriangleMesh before{mesh.positions, mesh.triangles, {}};
   std::vector<std::uint8_t> stays(mesh.positions.size(), 0);
   for (int round = 0; round < kRounds; ++round) {
-    relax(mesh, stays, surface, fit);
+    relax(mesh, is_border, stays, surface, fit);
     const auto crossing = self_intersections(mesh, find_face_changes(before, mesh).made);
     if (crossing.empty()) return true;
     for (const auto& [i, j] : crossing) {

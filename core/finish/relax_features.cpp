@@ -124,18 +124,12 @@ class Relaxer {
     int count = 0;
     table_.for_each_corner(v, [&](std::uint32_t c) {
       const std::uint32_t w = table_.head(c);
-      if (is_feature_[w] == 0 || !is_crease(c)) return;
+      if (is_feature_[w] == 0 || !is_crease(table_, positions_, c)) return;
       sum += at(w);
       ++count;
     });
     if (count != 2) return std::nullopt;
     return 0.5 * sum;
-  }
-
-  [[nodiscard]] bool is_crease(std::uint32_t c) const {
-    if (table_.across(c) == CornerTable::kNone) return true;
-    return !has_cosine(face_area_vector(table_, positions_, c / 3),
-                       face_area_vector(table_, positions_, table_.across(c) / 3), kFeatureCosine);
   }
 
   [[nodiscard]] std::optional<Vec3> middle_of_faces(std::uint32_t v) const {
@@ -212,6 +206,13 @@ class Relaxer {
 };
 
 }  // namespace
+
+bool is_crease(const CornerTable& table, const std::vector<Vec3>& positions, std::uint32_t corner) {
+  const std::uint32_t across = table.across(corner);
+  return across == CornerTable::kNone ||
+         !has_cosine(face_area_vector(table, positions, corner / 3),
+                     face_area_vector(table, positions, across / 3), kFeatureCosine);
+}
 
 void relax_features(CornerTable& table, std::vector<Vec3>& positions,
                     const std::vector<std::uint8_t>& is_feature, const VertexSides& sides) {

@@ -22,6 +22,10 @@ struct VertexSides {
   std::function<bool(std::uint32_t vertex, const Vec3& direction)> may_face;
 };
 
+/// Whether the edge of a corner is one of the boundary, or its faces differ by 30 degrees or more.
+[[nodiscard]] bool is_crease(const CornerTable& table, const std::vector<Vec3>& positions,
+                             std::uint32_t corner);
+
 /// Evens out the triangles along features: vertices on an edge slide along it, vertices within two
 /// edges of one within their side, each towards the middle of its neighbours, as long as the
 /// smallest angle around it grows, or those of its faces do on average and none falls under 30

@@ -51,8 +51,10 @@ class Splitter {
  private:
   [[nodiscard]] const Vec3& at(std::uint32_t vertex) const { return mesh_.positions[vertex]; }
 
+  /// Whether a vertex on an edge of a feature (1) or at a corner (2), at least, is next to a place.
   [[nodiscard]] bool is_taken(std::uint32_t vertex, const Vec3& place, std::uint8_t least) const {
-    return mesh_.is_taken(vertex, place, kTaken * cloud_.h_at(place), least);
+    return mesh_.is_feature[vertex] >= least &&
+           glm::distance(at(vertex), place) < kTaken * cloud_.h_at(place);
   }
 
   /// Where the sides meet that meet in pairs at the vertices of a face.
