@@ -62,6 +62,7 @@ Json json_of(const FinishReport& finish) {
           {"flipped_edges", finish.flipped_edges},
           {"flattened_spikes", finish.flattened_spikes},
           {"snapped_vertices", finish.snapped_vertices},
+          {"rim_moves", finish.rim_moves},
           {"regrown_faces", finish.regrown_faces},
           {"border_steps", finish.border_steps},
           {"small_angles", finish.small_angles},

@@ -11,6 +11,9 @@ namespace {
 /// Bounds the memory of the grid: cells for each face, and for a start.
 constexpr double kCellsPerFace = 8.0;
 constexpr double kFreeCells = 4096.0;
+/// In cells: where the nearest face is looked for at first, and how much farther then.
+constexpr double kFirstReach = 0.25;
+constexpr double kReachGrowth = 3.0;
 
 }  // namespace
 
@@ -86,6 +89,16 @@ std::vector<std::uint32_t> FaceGrid::faces_in(const std::vector<std::uint8_t>& i
 }
 
 std::uint32_t FaceGrid::nearest_face(const Vec3& place, double distance) const {
+  // Most places have a face much nearer than the farthest that counts.
+  double reach = std::min(distance, kFirstReach / cells_per_unit_);
+  for (;;) {
+    const std::uint32_t nearest = nearest_face_within(place, reach);
+    if (nearest != CornerTable::kNone || !(reach < distance)) return nearest;
+    reach = std::min(distance, kReachGrowth * reach);
+  }
+}
+
+std::uint32_t FaceGrid::nearest_face_within(const Vec3& place, double distance) const {
   std::uint32_t nearest = CornerTable::kNone;
   double least = distance * distance;
   for_each_cell({place - distance, place + distance}, [&](std::size_t at) {

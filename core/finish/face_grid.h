@@ -32,6 +32,7 @@ class FaceGrid {
   using Cell = std::array<std::size_t, 3>;
 
   void choose_cells(double cell);
+  [[nodiscard]] std::uint32_t nearest_face_within(const Vec3& place, double distance) const;
   /// Lists the faces of every marked (1) cell.
   void sort_faces(const std::vector<std::uint8_t>& is_asked);
   [[nodiscard]] Cell cell_at(const Vec3& place) const;

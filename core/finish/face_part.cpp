@@ -1,6 +1,9 @@
 #include "core/finish/face_part.h"
 
+#include <algorithm>
 #include <cstddef>
+
+#include "core/finish/corner_table.h"
 
 namespace rangezip {
 
@@ -22,6 +25,35 @@ FacePart face_part(const TriangleMesh& mesh, const std::vector<std::uint8_t>& is
     part.mesh.triangles.push_back(t);
   }
   return part;
+}
+
+std::vector<std::uint8_t> vertices_within(const TriangleMesh& mesh,
+                                          std::span<const std::uint32_t> faces, int edges) {
+  const CornerTable table(mesh.triangles, mesh.positions.size());
+  std::vector<std::uint8_t> is_in(mesh.positions.size(), 0);
+  std::vector<std::uint32_t> found;
+  const auto add = [&](std::uint32_t v) {
+    if (is_in[v] == 0) found.push_back(v);
+    is_in[v] = 1;
+  };
+  for (const std::uint32_t f : faces)
+    std::for_each(mesh.triangles[f].begin(), mesh.triangles[f].end(), add);
+  std::size_t begin = 0;
+  for (int edge = 0; edge < edges; ++edge) {
+    for (const std::size_t end = found.size(); begin < end; ++begin)
+      table.for_each_neighbor(found[begin], add);
+  }
+  return is_in;
+}
+
+FacePart part_within(const TriangleMesh& mesh, std::span<const std::uint32_t> faces, int edges) {
+  const std::vector<std::uint8_t> is_near = vertices_within(mesh, faces, edges);
+  std::vector<std::uint8_t> is_in(mesh.triangles.size(), 0);
+  for (std::size_t f = 0; f < is_in.size(); ++f) {
+    const auto& [a, b, c] = mesh.triangles[f];
+    is_in[f] = is_near[a] != 0 || is_near[b] != 0 || is_near[c] != 0 ? 1 : 0;
+  }
+  return face_part(mesh, is_in);
 }
 
 void put_back(FacePart part, TriangleMesh& mesh) {

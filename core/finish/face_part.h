@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/mesh/triangle_mesh.h"
@@ -20,6 +21,16 @@ struct FacePart {
 /// The faces with a flag. O(faces + vertices).
 /// @param is_in per face of the mesh
 [[nodiscard]] FacePart face_part(const TriangleMesh& mesh, const std::vector<std::uint8_t>& is_in);
+
+/// Flags the vertices of faces, and those up to so many edges away. O(vertices + faces).
+/// @pre oriented, manifold
+[[nodiscard]] std::vector<std::uint8_t> vertices_within(const TriangleMesh& mesh,
+                                                        std::span<const std::uint32_t> faces,
+                                                        int edges);
+
+/// The faces with a vertex up to so many edges away from one of these faces.
+[[nodiscard]] FacePart part_within(const TriangleMesh& mesh, std::span<const std::uint32_t> faces,
+                                   int edges);
 
 /// What was made of a part takes the place of its faces, at the end of the mesh. Positions of the
 /// part beyond those that were taken are new vertices; vertices without faces stay.

@@ -27,8 +27,9 @@
 #include "core/finish/relax_border.h"
 #include "core/finish/remesh.h"
 #include "core/finish/repair.h"
+#include "core/finish/separate.h"
+#include "core/finish/sharpen.h"
 #include "core/finish/small_angles.h"
-#include "core/finish/snap_features.h"
 #include "core/finish/thin_handles.h"
 #include "core/finish/untangle.h"
 #include "core/mesh/face_changes.h"
@@ -94,11 +95,6 @@ Box region_of(const TriangleMesh& mesh, double margin) {
   return region;
 }
 
-/// What find_face_changes() compares with.
-TriangleMesh geometry_of(const TriangleMesh& mesh) {
-  return {mesh.positions, mesh.triangles, {}};
-}
-
 /// Grows over what no scan has reached, and closes what is left open. Around what cannot be closed
 /// faces go: there it grows again.
 void close(TriangleMesh& mesh, std::span<const Vec3> cloud, const PointGrid& points,
@@ -139,35 +135,6 @@ std::vector<std::uint32_t> all_faces(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> faces(mesh.triangles.size());
   std::iota(faces.begin(), faces.end(), 0U);
   return faces;
-}
-
-/// After faces of a clean mesh have changed: untangles those that cross, and cuts out and closes
-/// again what still does. @return whether something was cut
-bool separate(TriangleMesh& mesh, std::span<const std::uint32_t> changed, const PointGrid& cloud,
-              const FinishOptions& options, FinishReport& report, const Progress& progress) {
-  const UntangleReport untangled = untangle(mesh, changed);
-  report.untangled_pairs += untangled.crossed;
-  if (untangled.left.empty()) return false;
-  repair(mesh, untangled.left, cloud, options, report, progress);
-  return true;
-}
-
-/// Moves vertices onto features; where something had to be cut, once more.
-void snap(TriangleMesh& mesh, const PointGrid& cloud, const Scale& scale,
-          const FinishOptions& options, FinishReport& report, const Progress& progress) {
-  constexpr int kRounds = 2;
-  for (int round = 0; round < kRounds; ++round) {
-    const TriangleMesh clean = geometry_of(mesh);
-    const SnapReport snapped = snap_features(
-        mesh, cloud, {options.pixel_size, scale.fit, scale.sizes, scale.edge}, progress);
-    report.snapped_vertices = std::max(report.snapped_vertices, snapped.snapped_vertices);
-    report.split_edges += snapped.split_edges;
-    report.collapsed_edges += snapped.collapsed_edges;
-    report.flipped_edges += snapped.flipped_edges;
-    if (snapped.snapped_vertices == 0) return;
-    const std::vector<std::uint32_t> changed = find_face_changes(clean, mesh).made;
-    if (!separate(mesh, changed, cloud, options, report, progress)) return;
-  }
 }
 
 /// What untangling left sharp.
@@ -213,16 +180,6 @@ void mark_around(const TriangleMesh& mesh, const TriangleMesh& other, const Pair
   }
 }
 
-/// Faces that pairs name, each as often as they do.
-std::vector<std::uint32_t> faces_in(const Pairs& pairs) {
-  std::vector<std::uint32_t> faces;
-  for (const auto& [i, j] : pairs) {
-    faces.push_back(i);
-    faces.push_back(j);
-  }
-  return faces;
-}
-
 /// Coarsens without faces that cross: where they come, the triangles stay as they are.
 /// @return faces that cross nevertheless
 std::vector<std::uint32_t> coarsen_cleanly(TriangleMesh& mesh, CoarsenOptions options,
@@ -234,7 +191,7 @@ std::vector<std::uint32_t> coarsen_cleanly(TriangleMesh& mesh, CoarsenOptions op
     const Pairs crossing = self_intersections(mesh);
     if (crossing.empty() || round == kCoarsenRounds) {
       report.collapsed_edges += collapsed;
-      return faces_in(crossing);
+      return faces_of_pairs(crossing);
     }
     mark_around(fine, mesh, crossing, options.is_kept);
     mesh = fine;
@@ -249,7 +206,7 @@ std::vector<std::uint32_t> fit_cleanly(TriangleMesh& mesh, std::vector<Vec3> poi
   fit_faces(mesh, std::move(points), options, progress);
   const UntangleReport untangled = take_back_crossing(mesh, positions);
   report.untangled_pairs += untangled.crossed;
-  return faces_in(untangled.left);
+  return faces_of_pairs(untangled.left);
 }
 
 /// As few triangles as are asked for, where they are nearest to the cloud.
@@ -334,7 +291,10 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
   const bool is_dense = !is_coarsened && are_points_dense(mesh, cloud, fit.noise, h);
   if (!is_dense) fit_vertices(mesh, surface, fit, progress);
   separate(mesh, all_faces(mesh), cloud, options, report, progress);
-  if (options.snap_features) snap(mesh, cloud, scale, options, report, progress);
+  if (options.snap_features) {
+    sharpen(mesh, cloud, {.pixel_size = h, .fit = fit, .sizes = scale.sizes, .edge = scale.edge},
+            options, report, progress);
+  }
   mend_slivers(mesh, cloud, options, report, progress);
   if (is_dense) {
     const auto left = fit_cleanly(mesh, cloud.points(kMostPoints * mesh.triangles.size()),

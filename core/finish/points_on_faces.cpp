@@ -11,8 +11,9 @@ namespace {
 
 constexpr std::uint32_t kNone = CornerTable::kNone;
 constexpr std::size_t kPerBlock = 1024;
-constexpr double kCellPerReach = 2.0;
-constexpr int kMostSteps = 6;  // of a walk: vertices move by less than an edge
+constexpr double kCellPerEdge = 1.5;
+constexpr double kSmallestCell = 0.1;  // of the reach
+constexpr int kMostSteps = 6;          // of a walk: vertices move by less than an edge
 
 double squared_distance(const CornerTable& table, const std::vector<Vec3>& positions,
                         std::uint32_t face, const Vec3& point) {
@@ -20,6 +21,15 @@ double squared_distance(const CornerTable& table, const std::vector<Vec3>& posit
   const Vec3 offset =
       closest_point_on_triangle(point, positions[t[0]], positions[t[1]], positions[t[2]]) - point;
   return glm::dot(offset, offset);
+}
+
+/// About the size of faces, model units.
+double cell_for(const TriangleMesh& mesh, double reach) {
+  double sum = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    sum += glm::length(mesh.positions[b] - mesh.positions[a]);
+  const auto faces = static_cast<double>(std::max<std::size_t>(mesh.triangles.size(), 1));
+  return std::max(kCellPerEdge * sum / faces, kSmallestCell * reach);
 }
 
 /// The face across the side beyond which the point's foot lies; the face itself if that is inside.
@@ -50,7 +60,7 @@ std::uint32_t walk(const CornerTable& table, const std::vector<Vec3>& positions,
 
 PointsOnFaces::PointsOnFaces(const TriangleMesh& mesh, std::vector<Vec3> points, double reach)
     : points_(std::move(points)), face_of_(points_.size(), kNone) {
-  const FaceGrid grid(mesh, kCellPerReach * reach);
+  const FaceGrid grid(mesh, cell_for(mesh, reach));
   parallel_for(points_.size(), kPerBlock, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       face_of_[i] = grid.nearest_face(points_[i], reach);

@@ -12,9 +12,9 @@
 #include "core/finish/clean_topology.h"
 #include "core/finish/components.h"
 #include "core/finish/corner_table.h"
-#include "core/finish/face_part.h"
 #include "core/finish/left_out_points.h"
 #include "core/finish/local_plane.h"
+#include "core/finish/places_near.h"
 #include "core/finish/unsupported_faces.h"
 #include "core/mesh/coverage.h"
 
@@ -39,38 +39,8 @@ constexpr double kOffMeshPerNoise = 2.0;
 constexpr double kInTheWay = 0.9;
 constexpr int kSmoothRounds = 3;
 constexpr double kHardlyNoise = 0.08;  ///< in h: less is left in
-constexpr std::size_t kMinPiece = 12;  ///< faces; less is a shred in the air
 constexpr std::size_t kGrain = 256;
-
-bool is_near(const PointGrid& places, const Vec3& p, double radius) {
-  bool found = false;
-  places.for_each_near(p, radius, [&](const Vec3& offset) {
-    found = found || glm::dot(offset, offset) <= radius * radius;
-  });
-  return found;
-}
-
-/// Flags, in parallel.
-template <class IsIn>
-std::vector<std::uint8_t> flags_of(std::size_t count, const IsIn& is_in) {
-  std::vector<std::uint8_t> flags(count, 0);
-  parallel_for(count, kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      flags[i] = is_in(i) ? 1 : 0;
-  });
-  return flags;
-}
-
-std::vector<Vec3> points_near(std::span<const Vec3> points, const PointGrid& places,
-                              double radius) {
-  const auto flags =
-      flags_of(points.size(), [&](std::size_t i) { return is_near(places, points[i], radius); });
-  std::vector<Vec3> near;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (flags[i] != 0) near.push_back(points[i]);
-  }
-  return near;
-}
+constexpr std::size_t kMinPiece = 12;  ///< faces; less is a shred in the air
 
 Box region_of(const TriangleMesh& mesh, double h) {
   Box region = bounds_of(mesh);
@@ -126,12 +96,6 @@ void smooth(std::vector<Vec3>& points, const PointGrid& cloud, double h) {
       }
     }
   });
-}
-
-FacePart part_near(const TriangleMesh& mesh, const PointGrid& places, double radius) {
-  return face_part(mesh, flags_of(mesh.triangles.size(), [&](std::size_t f) {
-                     return is_near(places, mesh.positions[mesh.triangles[f][0]], radius);
-                   }));
 }
 
 }  // namespace

@@ -81,6 +81,10 @@ class Snapper {
  private:
   [[nodiscard]] const Vec3& at(std::uint32_t vertex) const { return mesh_.positions[vertex]; }
 
+  [[nodiscard]] bool is_kept(std::uint32_t v) const {
+    return v < options_.is_kept.size() && options_.is_kept[v] != 0;
+  }
+
   /// h, or what it would be for scans that give triangles as small as these.
   [[nodiscard]] double pixel_of_edges() const {
     const double h = options_.pixel_size;
@@ -104,7 +108,7 @@ class Snapper {
                  [&](std::size_t begin, std::size_t end) {
                    for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
                      if (!mesh_.surfaces[v].is_clean && mesh_.is_feature[v] == 0 &&
-                         !mesh_.table.is_boundary(v))
+                         !mesh_.table.is_boundary(v) && !is_kept(v))
                        snaps[v] = snap_of_vertex(v);
                    }
                  });

@@ -18,4 +18,9 @@ struct FaceChanges {
 /// @pre both are oriented: no directed edge in two faces
 [[nodiscard]] FaceChanges find_face_changes(const TriangleMesh& before, const TriangleMesh& after);
 
+/// What find_face_changes() compares with, for keeping it while the mesh changes.
+[[nodiscard]] inline TriangleMesh geometry_of(const TriangleMesh& mesh) {
+  return {mesh.positions, mesh.triangles, {}};
+}
+
 }  // namespace rangezip

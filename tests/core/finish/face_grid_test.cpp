@@ -56,5 +56,26 @@ TEST_CASE("FaceGrid of a closed mesh holds no face") {
   REQUIRE_FALSE(grid.has_face_within({1.0, 0.0, 0.0}, 0.5));
 }
 
+TEST_CASE("FaceGrid finds the nearest face of all, near or far, and none beyond the distance") {
+  const std::uint64_t seed = GENERATE(1U, 2U, 3U);
+  CAPTURE(seed);
+  const TriangleMesh mesh = testing::sphere(8);
+  const FaceGrid grid(mesh, 0.3);
+  std::mt19937_64 engine(seed);
+  for (int i = 0; i < 300; ++i) {
+    const double x = uniform(engine, -1.5, 1.5), y = uniform(engine, -1.5, 1.5);
+    const Vec3 p{x, y, uniform(engine, -1.5, 1.5)};
+    const double distance = distance_to(mesh, p);
+    const std::uint32_t face = grid.nearest_face(p, 1.001 * distance + 1e-12);
+    REQUIRE(face != CornerTable::kNone);
+    const Triangle& t = mesh.triangles[face];
+    const Vec3 foot = closest_point_on_triangle(p, mesh.positions[t[0]], mesh.positions[t[1]],
+                                                mesh.positions[t[2]]);
+    REQUIRE(glm::length(foot - p) == Approx(distance));
+    REQUIRE(grid.nearest_face(p, 3.0) == face);
+    REQUIRE(grid.nearest_face(p, 0.999 * distance) == CornerTable::kNone);
+  }
+}
+
 }  // namespace
 }  // namespace rangezip

@@ -58,5 +58,21 @@ TEST_CASE("what is done to a part is done to the whole, new vertices included", 
   CHECK(report_mesh(mesh).euler == 1);
 }
 
+TEST_CASE("vertices within so many edges of a face are those of that many rings", "[finish]") {
+  const TriangleMesh mesh = shapes::square_sheet(10);
+  const std::vector<std::uint32_t> one{110};
+  const auto count = [&](int edges) {
+    const std::vector<std::uint8_t> flags = vertices_within(mesh, one, edges);
+    return std::count(flags.begin(), flags.end(), 1);
+  };
+  CHECK(count(0) == 3);
+  // On the regular lattice each ring around a triangle is a hexagon with three corners cut.
+  CHECK(count(1) == 12);
+  CHECK(count(2) == 27);
+  CHECK(count(100) == static_cast<std::ptrdiff_t>(mesh.positions.size()));
+  const FacePart part = part_within(mesh, one, 0);
+  CHECK(part.faces.size() == 13);  // it and the twelve that touch it
+}
+
 }  // namespace
 }  // namespace rangezip

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/parallel.h"
+#include "core/finish/face_part.h"
+#include "core/finish/point_grid.h"
+#include "core/mesh/triangle_mesh.h"
+
+namespace rangezip {
+
+/// Flags of 0 to count - 1, in parallel: 1 where is_in(i).
+template <class IsIn>
+[[nodiscard]] std::vector<std::uint8_t> flags_of(std::size_t count, const IsIn& is_in) {
+  constexpr std::size_t kGrain = 256;
+  std::vector<std::uint8_t> flags(count, 0);
+  parallel_for(count, kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      flags[i] = is_in(i) ? 1 : 0;
+  });
+  return flags;
+}
+
+/// Whether one of the places lies within `radius` of p.
+[[nodiscard]] bool is_near(const PointGrid& places, const Vec3& p, double radius);
+
+/// The points within `radius` of one of the places, in their order.
+[[nodiscard]] std::vector<Vec3> points_near(std::span<const Vec3> points, const PointGrid& places,
+                                            double radius);
+
+/// The faces whose first corner lies within `radius` of one of the places.
+[[nodiscard]] FacePart part_near(const TriangleMesh& mesh, const PointGrid& places, double radius);
+
+}  // namespace rangezip

@@ -1,0 +1,372 @@
+#include "core/finish/reach_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "core/finish/corner_table.h"
+#include "core/finish/edge_changes.h"
+#include "core/finish/places_near.h"
+#include "core/finish/points_on_faces.h"
+#include "core/finish/triangle_shape.h"
+#include "core/finish/unsupported_faces.h"
+#include "core/finish/vertex_geometry.h"
+#include "core/mesh/coverage.h"
+#include "core/mesh/self_intersection.h"
+
+namespace rangezip {
+namespace {
+
+// Lengths are in h, angles as cosines, smallest angles as sines.
+constexpr double kShort = 0.25;  ///< points farther than this from the mesh are to be reached
+constexpr double kShortPerNoise = 3.0;
+constexpr double kMostNoise = 0.125;
+constexpr double kReach = 3.0;         ///< of rims that are short
+constexpr double kAround = 2.0;        ///< of such points: those that tell whether a move is good
+constexpr double kPart = 8.0;          ///< of such points: faces that may be met
+constexpr double kHalf = 0.5;          ///< of the radius: cells of grids
+constexpr double kCrease = 0.5;        ///< 60 degrees
+constexpr std::size_t kMinPoints = 2;  ///< next to a vertex, to be reached
+constexpr double kGain = 0.9;          ///< of the sum of squares, at most, after a move
+constexpr double kSharp = 0.2;         ///< faces may not get so sharp
+constexpr double kFold = -0.95;        ///< between neighbouring faces
+constexpr double kLongEdge = 1.5;      ///< of the mean edge
+constexpr double kOneSide = 0.9;       ///< between the faces of an edge that may turn
+constexpr double kAngleGain = 0.005;
+constexpr int kRounds = 10;
+constexpr int kHalvings = 2;
+constexpr std::uint32_t kNone = CornerTable::kNone;
+
+PointGrid grid_of(const std::vector<Vec3>& places, double cell) {
+  Box region;
+  for (const Vec3& place : places)
+    region.add(place);
+  return {places, region, cell};
+}
+
+/// The ends of creases.
+std::vector<Vec3> sharp_vertices(const TriangleMesh& mesh) {
+  const CornerTable table(mesh.triangles, mesh.positions.size());
+  std::vector<std::uint8_t> is_sharp(mesh.positions.size(), 0);
+  for (std::uint32_t c = 0; c < table.corner_count(); ++c) {
+    if (!table.names_inner_edge(c)) continue;
+    if (has_cosine(face_area_vector(table, mesh.positions, c / 3),
+                   face_area_vector(table, mesh.positions, table.across(c) / 3), kCrease)) {
+      continue;
+    }
+    is_sharp[table.vertex(c)] = is_sharp[table.head(c)] = 1;
+  }
+  std::vector<Vec3> sharp;
+  for (std::uint32_t v = 0; v < is_sharp.size(); ++v) {
+    if (is_sharp[v] != 0) sharp.push_back(mesh.positions[v]);
+  }
+  return sharp;
+}
+
+class Reacher {
+ public:
+  /// @param points that the mesh is to reach, and those around
+  Reacher(TriangleMesh& mesh, std::vector<Vec3> points, const PointGrid& cloud, double too_short,
+          const ReachPointsOptions& options)
+      : positions_(mesh.positions),
+        mesh_(mesh),
+        points_(std::move(points)),
+        cloud_(cloud),
+        options_(options),
+        short_(too_short),
+        table_(mesh.triangles, mesh.positions.size()),
+        is_hopeless_(mesh.positions.size(), 0) {}
+
+  /// @return how many vertices have moved
+  std::size_t round() {
+    const PointsOnFaces on(mesh_, points_, kReach * options_.pixel_size);
+    const std::vector<Vec3> before = positions_;
+    std::vector<std::uint8_t> is_busy(positions_.size(), 0);
+    std::vector<std::uint32_t> moved;
+    for (const Candidate& candidate : find_candidates(on)) {
+      const std::uint32_t v = candidate.vertex;
+      if (is_busy[v] != 0) continue;
+      if (!move(on, candidate)) {
+        is_hopeless_[v] = 1;
+        continue;
+      }
+      moved.push_back(v);
+      for_each_around(v, [&](std::uint32_t w) { is_busy[w] = 1; });
+    }
+    take_back_crossing(before, moved);
+    for (const std::uint32_t v : moved)
+      for_each_around(v, [&](std::uint32_t w) { is_hopeless_[w] = 0; });
+    for (const std::uint32_t v : moved)
+      split_long_edges(v);
+    for (const std::uint32_t v : moved)
+      turn_edges(v);
+    mesh_.triangles = table_.triangles();
+    return moved.size();
+  }
+
+ private:
+  /// A vertex next to points that are to be reached.
+  struct Candidate {
+    std::uint32_t vertex = kNone;
+    Vec3 farthest{0.0};
+    double distance2 = 0.0;
+    std::size_t count = 0;
+  };
+
+  /// A point near a vertex, with its squared distance to what does not move with it.
+  struct NearPoint {
+    Vec3 place{0.0};
+    double distance2 = 0.0;
+  };
+
+  [[nodiscard]] const Vec3& at(std::uint32_t vertex) const { return positions_[vertex]; }
+
+  /// Visits a vertex and those within two edges, some more than once.
+  template <class Visit>
+  void for_each_around(std::uint32_t v, const Visit& visit) const {
+    table_.for_each_neighbor(v, [&](std::uint32_t w) {
+      visit(w);
+      table_.for_each_neighbor(w, visit);
+    });
+  }
+
+  /// Those of the farthest points first.
+  [[nodiscard]] std::vector<Candidate> find_candidates(const PointsOnFaces& on) const {
+    std::vector<Candidate> of_vertex(positions_.size());
+    for (std::uint32_t f = 0; f < table_.face_count(); ++f) {
+      for (const std::uint32_t index : on.of_face(f)) {
+        const Vec3& p = on.point(index);
+        const double distance2 = distance2_to(f, p);
+        if (distance2 < short_ * short_) continue;
+        const std::uint32_t v = nearest_corner(f, p);
+        if (table_.is_boundary(v) || is_hopeless_[v] != 0) continue;
+        Candidate& candidate = of_vertex[v];
+        candidate.vertex = v;
+        ++candidate.count;
+        if (distance2 <= candidate.distance2) continue;
+        candidate.distance2 = distance2;
+        candidate.farthest = p;
+      }
+    }
+    std::erase_if(of_vertex, [](const Candidate& c) { return c.count < kMinPoints; });
+    std::stable_sort(of_vertex.begin(), of_vertex.end(),
+                     [](const auto& a, const auto& b) { return a.distance2 > b.distance2; });
+    return of_vertex;
+  }
+
+  [[nodiscard]] double distance2_to(std::uint32_t face, const Vec3& p) const {
+    const Triangle t = table_.triangle(face);
+    const Vec3 offset = closest_point_on_triangle(p, at(t[0]), at(t[1]), at(t[2])) - p;
+    return glm::dot(offset, offset);
+  }
+
+  [[nodiscard]] std::uint32_t nearest_corner(std::uint32_t face, const Vec3& p) const {
+    const Triangle t = table_.triangle(face);
+    return *std::min_element(t.begin(), t.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return glm::dot(at(a) - p, at(a) - p) < glm::dot(at(b) - p, at(b) - p);
+    });
+  }
+
+  /// Moves a vertex if that is better. @return whether it has
+  bool move(const PointsOnFaces& on, const Candidate& candidate) {
+    const std::uint32_t v = candidate.vertex;
+    const Vec3 place = at(v);
+    const std::vector<NearPoint> near = points_around(on, v);
+    const double error = error_around(v, near);
+    const double sharpest = std::min(sharpest_around(v), kSharp);
+    const int in_air = places_in_air(v);
+    double share = 1.0;
+    for (int halving = 0; halving < kHalvings; ++halving, share *= 0.5) {
+      positions_[v] = place + share * (candidate.farthest - place);
+      if (sharpest_around(v) >= sharpest && !is_folded(v) &&
+          error_around(v, near) <= kGain * error && places_in_air(v) <= in_air) {
+        return true;
+      }
+    }
+    positions_[v] = place;
+    return false;
+  }
+
+  /// The points next to the faces around a vertex and its neighbours.
+  [[nodiscard]] std::vector<NearPoint> points_around(const PointsOnFaces& on,
+                                                     std::uint32_t v) const {
+    std::vector<std::uint32_t> moving, faces;
+    table_.for_each_corner(v, [&](std::uint32_t c) { moving.push_back(c / 3); });
+    table_.for_each_neighbor(v, [&](std::uint32_t w) {
+      table_.for_each_corner(w, [&](std::uint32_t c) { faces.push_back(c / 3); });
+    });
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    std::vector<NearPoint> near;
+    for (const std::uint32_t f : faces) {
+      for (const std::uint32_t index : on.of_face(f))
+        near.push_back({on.point(index), std::numeric_limits<double>::infinity()});
+    }
+    std::erase_if(faces, [&](std::uint32_t f) {
+      return std::find(moving.begin(), moving.end(), f) != moving.end();
+    });
+    for (NearPoint& point : near) {
+      for (const std::uint32_t f : faces)
+        point.distance2 = std::min(point.distance2, distance2_to(f, point.place));
+    }
+    return near;
+  }
+
+  /// Sum of the squared distances of points from the mesh.
+  [[nodiscard]] double error_around(std::uint32_t v, const std::vector<NearPoint>& near) const {
+    double sum = 0.0;
+    for (const NearPoint& point : near) {
+      double least = point.distance2;
+      table_.for_each_corner(
+          v, [&](std::uint32_t c) { least = std::min(least, distance2_to(c / 3, point.place)); });
+      sum += least;
+    }
+    return sum;
+  }
+
+  [[nodiscard]] double sharpest_around(std::uint32_t v) const {
+    double sharpest = 1.0;
+    table_.for_each_corner(v, [&](std::uint32_t c) {
+      sharpest =
+          std::min(sharpest, sine_of_smallest_angle(at(v), at(table_.head(c)), at(table_.apex(c))));
+    });
+    return sharpest;
+  }
+
+  /// Whether two faces, of which one is around the vertex, lie back to back.
+  [[nodiscard]] bool is_folded(std::uint32_t v) const {
+    bool found = false;
+    const auto look = [&](std::uint32_t c) {
+      if (table_.across(c) == kNone) return;
+      const Vec3 a = face_area_vector(table_, positions_, c / 3);
+      const Vec3 b = face_area_vector(table_, positions_, table_.across(c) / 3);
+      found = found || glm::dot(a, b) < kFold * glm::length(a) * glm::length(b);
+    };
+    table_.for_each_corner(v, [&](std::uint32_t c) {
+      look(c);
+      look(CornerTable::next(c));
+    });
+    return found;
+  }
+
+  /// Of the centroids and the middles of sides of the faces around.
+  [[nodiscard]] int places_in_air(std::uint32_t v) const {
+    int count = 0;
+    table_.for_each_corner(v, [&](std::uint32_t c) {
+      const Vec3 &p = at(v), &q = at(table_.head(c)), &r = at(table_.apex(c));
+      for (const Vec3& place : {(p + q + r) / 3.0, 0.5 * (p + q), 0.5 * (q + r)})
+        count += is_supported(cloud_, place, options_.pixel_size, kCloseSupport) ? 0 : 1;
+    });
+    return count;
+  }
+
+  /// Moves of vertices of faces that cross others, until none is left.
+  void take_back_crossing(const std::vector<Vec3>& before, std::vector<std::uint32_t>& moved) {
+    while (!moved.empty()) {
+      std::vector<std::uint32_t> changed;
+      for (const std::uint32_t v : moved)
+        table_.for_each_corner(v, [&](std::uint32_t c) { changed.push_back(c / 3); });
+      const auto crossing = self_intersections(mesh_, changed);
+      if (crossing.empty()) return;
+      std::vector<std::uint8_t> crosses(positions_.size(), 0);
+      for (const auto& [i, j] : crossing) {
+        for (const std::uint32_t f : {i, j}) {
+          for (const std::uint32_t v : table_.triangle(f))
+            crosses[v] = 1;
+        }
+      }
+      for (const std::uint32_t v : moved) {
+        if (crosses[v] == 0) continue;
+        positions_[v] = before[v];
+        is_hopeless_[v] = 1;
+      }
+      std::erase_if(moved, [&](std::uint32_t v) { return crosses[v] != 0; });
+    }
+  }
+
+  void split_long_edges(std::uint32_t v) {
+    std::vector<std::uint32_t> far;
+    table_.for_each_neighbor(v, [&](std::uint32_t w) {
+      if (glm::length(at(w) - at(v)) > kLongEdge * options_.edge) far.push_back(w);
+    });
+    for (const std::uint32_t w : far) {
+      std::uint32_t corner = kNone;
+      table_.for_each_corner(v, [&](std::uint32_t c) {
+        if (table_.head(c) == w) corner = c;
+      });
+      if (corner == kNone || table_.across(corner) == kNone) continue;
+      table_.split_edge(corner);
+      positions_.push_back(0.5 * (at(v) + at(w)));
+      is_hopeless_.push_back(0);
+    }
+  }
+
+  void turn_edges(std::uint32_t v) {
+    std::vector<std::uint32_t> around{v};
+    table_.for_each_neighbor(v, [&](std::uint32_t w) { around.push_back(w); });
+    for (const std::uint32_t w : around)
+      turn_worst_edge(w);
+  }
+
+  /// The one whose turn within a side makes the smallest angle grow most.
+  void turn_worst_edge(std::uint32_t v) {
+    std::uint32_t worst = kNone;
+    double most = kAngleGain;
+    table_.for_each_corner(v, [&](std::uint32_t c) {
+      if (table_.across(c) == kNone) return;
+      const Diamond d(table_, c);
+      const DiamondAreas areas(positions_, d);
+      if (!has_cosine(areas.old_x, areas.old_y, kOneSide) ||
+          !has_cosine(areas.new_a, areas.new_b, kOneSide) ||
+          !has_cosine(areas.new_a, areas.old_x, kOneSide)) {
+        return;
+      }
+      const double gain = angle_after_flip(positions_, d) - angle_before_flip(positions_, d);
+      if (gain <= most || !table_.is_flip_ok(c)) return;
+      most = gain;
+      worst = c;
+    });
+    if (worst != kNone) table_.flip(worst);
+  }
+
+  std::vector<Vec3>& positions_;
+  TriangleMesh& mesh_;
+  std::vector<Vec3> points_;
+  const PointGrid& cloud_;
+  const ReachPointsOptions& options_;
+  double short_;
+  CornerTable table_;
+  std::vector<std::uint8_t> is_hopeless_;  ///< vertices that have no good move as things are
+};
+
+}  // namespace
+
+std::size_t reach_points(TriangleMesh& mesh, const PointGrid& cloud,
+                         const ReachPointsOptions& options, const Progress& progress) {
+  const double h = options.pixel_size;
+  if (cloud.empty() || mesh.empty() || options.noise > kMostNoise * h) return 0;
+  const std::vector<Vec3> sharp = sharp_vertices(mesh);
+  if (sharp.empty()) return 0;
+  const std::vector<Vec3> points = cloud.points(cloud.size());
+  const double too_short = std::max(kShort * h, kShortPerNoise * options.noise);
+  const std::vector<Vec3> missed = points_off(
+      points_near(points, grid_of(sharp, kHalf * kReach * h), kReach * h), mesh, too_short);
+  if (missed.size() < kMinPoints) return 0;
+  FacePart part = part_near(mesh, grid_of(missed, kHalf * kPart * h), kPart * h);
+  Reacher reacher(part.mesh, points_near(points, grid_of(missed, kHalf * kAround * h), kAround * h),
+                  cloud, too_short, options);
+  std::size_t moves = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    progress.check_stop();
+    const std::size_t moved = reacher.round();
+    if (moved == 0) break;
+    moves += moved;
+  }
+  if (moves > 0) put_back(std::move(part), mesh);
+  return moves;
+}
+
+}  // namespace rangezip

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+
+#include "core/base/progress.h"
+#include "core/finish/point_grid.h"
+#include "core/mesh/triangle_mesh.h"
+
+namespace rangezip {
+
+struct ReachPointsOptions {
+  double pixel_size = 0.0;  ///< h, model units; positive
+  double edge = 0.0;        ///< mean length of edges, model units; positive
+  double noise = 0.0;       ///< standard deviation of the points from the surface, model units
+};
+
+/// Brings sharp rims, tips and corners out to where the cloud has points. Near the rim of a blade
+/// no scan sees both sides, and what closes the mesh there cuts the rim off. Where points lie off
+/// the mesh near a crease of 60 degrees or more, by 0.25 h or more and three times the noise, the
+/// vertex next to them moves to the farthest of them, or half of the way, if the points around are
+/// then nearer to the faces (by a tenth of the sum of squares), no face around gets sharper than
+/// before or folds over, and no more of them lies in the air. What would cross is taken back. Edges
+/// that got long are split, and edges turned within a side for better angles; so the next round
+/// gets farther. Clouds with noise of over h / 8 are left alone. The topology and the boundary
+/// stay. Cost: what is near creases is looked at once, and what changes again in up to ten rounds.
+/// @return moves that were made
+/// @pre oriented, manifold (core/finish/clean_topology.h); nothing crosses, and nothing will
+std::size_t reach_points(TriangleMesh& mesh, const PointGrid& cloud,
+                         const ReachPointsOptions& options, const Progress& progress = {});
+
+}  // namespace rangezip
