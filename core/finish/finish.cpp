@@ -53,8 +53,6 @@ constexpr double kFilledHandle = 9.0;
 constexpr double kWidestPerGap = 5.0;
 constexpr int kRegrowRounds = 3;
 constexpr int kHandleRounds = 6;  ///< of {cut, close}: paths that touch are cut one by one
-/// Points a face: with more, flat triangles are farther from the surface than its fits.
-constexpr std::size_t kDensePoints = 4;
 /// Points a face: more tell hardly more, and take longer.
 constexpr std::size_t kMostPoints = 24;
 /// Times: with so many fewer triangles than the scans give, where they lie matters more than that
@@ -151,10 +149,10 @@ void mend_slivers(TriangleMesh& mesh, const PointGrid& cloud, const FinishOption
   separate(mesh, changed, cloud, options, report, progress);
 }
 
-/// Whether each face, of edges of about this length, has enough points with hardly any noise to be
-/// fitted to these themselves.
-bool are_points_dense(const TriangleMesh& mesh, const PointGrid& cloud, double noise, double edge) {
-  return noise <= kHardlyNoise * edge && cloud.size() >= kDensePoints * mesh.triangles.size();
+/// Whether points have so little noise that faces, with edges of about this length, are nearer to
+/// the surface if they are fitted to the points themselves. Not between contours.
+bool are_points_exact(double noise, double edge, const FinishOptions& options) {
+  return noise <= kHardlyNoise * edge && options.gap == 0.0;
 }
 
 /// Whether the mesh is made with the triangles of the scans first, and then coarsened.
@@ -221,7 +219,7 @@ void coarsen_to_cloud(TriangleMesh& mesh, const PointGrid& cloud, const FinishOp
   const std::size_t after = mesh.triangles.size();
   const double edge =
       options.pixel_size * std::sqrt(static_cast<double>(before) / static_cast<double>(after));
-  if (are_points_dense(mesh, cloud, report.noise, edge)) {
+  if (are_points_exact(report.noise, edge, options)) {
     left = fit_cleanly(
         mesh, cloud.points(kMostPoints * after),
         {.reach = edge, .small_angle = kCoarseSmallAngle, .hold = kCoarseHold, .median_angle = 0.0},
@@ -288,15 +286,14 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
                                 .sizes = scale.sizes,
                                 .rounds = options.relaxations},
                                report, progress);
-  const bool is_dense = !is_coarsened && are_points_dense(mesh, cloud, fit.noise, h);
-  if (!is_dense) fit_vertices(mesh, surface, fit, progress);
+  fit_vertices(mesh, surface, fit, progress);
   separate(mesh, all_faces(mesh), cloud, options, report, progress);
   if (options.snap_features) {
     sharpen(mesh, cloud, {.pixel_size = h, .fit = fit, .sizes = scale.sizes, .edge = scale.edge},
             options, report, progress);
   }
   mend_slivers(mesh, cloud, options, report, progress);
-  if (is_dense) {
+  if (!is_coarsened && are_points_exact(fit.noise, h, options)) {
     const auto left = fit_cleanly(mesh, cloud.points(kMostPoints * mesh.triangles.size()),
                                   {.reach = h}, report, progress);
     separate(mesh, left, cloud, options, report, progress);

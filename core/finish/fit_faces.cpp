@@ -18,9 +18,8 @@ namespace rangezip {
 namespace {
 
 // Angles as cosines.
-constexpr int kRounds = 6;
-constexpr int kTurningRounds = 4;  // after the first; later ones find hardly an edge to turn
-constexpr int kSweeps = 10;        // of solving: the rounds go on with what is left
+constexpr int kRounds = 4;
+constexpr int kSweeps = 5;  // of solving: the rounds go on with what is left
 constexpr double kMostTurn = 0.5;
 constexpr double kSharpest = 0.5;     // edge that may arise
 constexpr double kTurnGain = 0.995;   // of the squared distances: equal ones would turn to and fro
@@ -28,7 +27,13 @@ constexpr double kAngleGain = 0.05;   // sine: by so much better an angle is wor
 constexpr double kTurnSlack = 0.004;  // of the reach: that distance
 constexpr std::array kShares{1.0, 0.5, 0.25};  // of the way of a vertex, the first that may be
 constexpr double kHoldAlways = 0.001;          // in points: where there are none
-constexpr double kMoreHold = 1.35;             // in the next round, if angles are too small
+/// In points at each corner of a face: in what direction its points do not tell, its plane stays.
+constexpr double kPlaneHold = 0.1;
+/// Faces with fewer points turn their edge for the sake of angles only where they differ by less
+/// than 10 degrees: no point would tell of an edge of the surface.
+constexpr std::size_t kFewPoints = 4;
+constexpr double kFlat = 0.985;
+constexpr double kMoreHold = 1.35;   // in the next round, if angles are too small
 constexpr double kRelaxStep = 0.55;  // towards the middle of the faces, that is held on to
 constexpr std::size_t kPerBlock = 1024;
 
@@ -52,8 +57,7 @@ class Fitter {
     for (int round = 0; round < kRounds; ++round) {
       progress.check_stop();
       if (round > 0) points_.follow(table_, positions_);
-      if (round > 0 && round <= kTurningRounds && turn_edges() > 0)
-        points_.follow(table_, positions_);
+      if (round > 0 && turn_edges() > 0) points_.follow(table_, positions_);
       sum_faces();
       hold_vertices();
       shifts_.assign(positions_.size(), Vec3(0.0));
@@ -114,7 +118,11 @@ class Fitter {
     }
     const double slack = static_cast<double>(count) * squared_slack();
     const double gain = angle_after_flip(positions_, d) - angle_before_flip(positions_, d);
-    if (gain > kAngleGain) return after <= before + slack;
+    if (gain > kAngleGain) {
+      const DiamondAreas areas(positions_, d);
+      const bool is_told = count >= kFewPoints || has_cosine(areas.old_x, areas.old_y, kFlat);
+      return is_told && after <= before + slack;
+    }
     return after < kTurnGain * before - (gain < -kAngleGain ? slack : 0.0);
   }
 
@@ -139,6 +147,8 @@ class Fitter {
     const Vec3 area = area_vector(a, b, c);
     if (!(glm::dot(area, area) > 0.0)) return sums;
     sums.normal = glm::normalize(area);
+    for (std::size_t k = 0; k < 3; ++k)
+      sums.products[k][k] = kPlaneHold;
     for (const std::uint32_t i : points_.of_face(face)) {
       const Vec3 foot = closest_point_on_triangle(points_.point(i), a, b, c);
       const std::array<double, 3> share = barycentric(foot, a, b, c);

@@ -32,17 +32,28 @@ class FaceGrid {
       if (!(point[axis] >= bounds_.lower[axis] && point[axis] <= bounds_.upper[axis])) return false;
     }
     const std::size_t cell = index_of(cell_of(point));
-    for (std::uint32_t i = first_[cell]; i < first_[cell + 1]; ++i) {
-      const Triangle& t = mesh_.triangles[faces_[i]];
-      const Vec3 nearest = closest_point_on_triangle(point, mesh_.positions[t[0]],
-                                                     mesh_.positions[t[1]], mesh_.positions[t[2]]);
-      const Vec3 away = point - nearest;
-      if (glm::dot(away, away) <= distance_ * distance_) return true;
-    }
-    return false;
+    const auto faces = std::span(faces_).subspan(first_[cell], first_[cell + 1] - first_[cell]);
+    // Most points have a corner as near; that takes a tenth of the time to see.
+    return std::any_of(faces.begin(), faces.end(),
+                       [&](std::uint32_t f) { return is_corner_near(f, point); }) ||
+           std::any_of(faces.begin(), faces.end(),
+                       [&](std::uint32_t f) { return is_face_near(f, point); });
   }
 
  private:
+  /// Each vertex is the first corner of about two faces.
+  [[nodiscard]] bool is_corner_near(std::uint32_t face, const Vec3& point) const {
+    const Vec3 away = point - mesh_.positions[mesh_.triangles[face][0]];
+    return glm::dot(away, away) <= distance_ * distance_;
+  }
+
+  [[nodiscard]] bool is_face_near(std::uint32_t face, const Vec3& point) const {
+    const auto& [a, b, c] = mesh_.triangles[face];
+    const Vec3 away = point - closest_point_on_triangle(point, mesh_.positions[a],
+                                                        mesh_.positions[b], mesh_.positions[c]);
+    return glm::dot(away, away) <= distance_ * distance_;
+  }
+
   using Cell = std::array<int, 3>;
 
   void choose_cells() {
