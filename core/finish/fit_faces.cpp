@@ -33,6 +33,7 @@ constexpr double kPlaneHold = 0.1;
 /// than 10 degrees: no point would tell of an edge of the surface.
 constexpr std::size_t kFewPoints = 4;
 constexpr double kFlat = 0.985;
+constexpr double kSmooth = 0.87;     // 30 degrees, from the normal of a vertex to its faces
 constexpr double kMoreHold = 1.35;   // in the next round, if angles are too small
 constexpr double kRelaxStep = 0.55;  // towards the middle of the faces, that is held on to
 constexpr std::size_t kPerBlock = 1024;
@@ -177,7 +178,7 @@ class Fitter {
     });
   }
 
-  /// Of the faces around a vertex, within its tangent plane.
+  /// Of the faces around a vertex, within its tangent plane; none on an edge of the surface.
   [[nodiscard]] Vec3 way_to_middle(std::uint32_t v) const {
     Vec3 sum{0.0}, normal{0.0};
     double weight = 0.0;
@@ -190,6 +191,12 @@ class Fitter {
     });
     if (!(weight > 0.0)) return Vec3(0.0);
     normal = unit_or_z(normal);
+    bool is_smooth = true;
+    table_.for_each_corner(v, [&](std::uint32_t c) {
+      const Vec3 area = face_area_vector(table_, positions_, c / 3);
+      is_smooth = is_smooth && has_cosine(area, normal, kSmooth);
+    });
+    if (!is_smooth) return Vec3(0.0);
     const Vec3 way = sum / weight;
     return way - glm::dot(way, normal) * normal;
   }

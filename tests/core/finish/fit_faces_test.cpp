@@ -96,6 +96,28 @@ TEST_CASE("vertices slide onto the edges of a cube that the mesh cuts off") {
   REQUIRE(mean_square(mesh, points) < before / 100.0);
 }
 
+TEST_CASE("a cube stays a cube where no point tells of its sides") {
+  std::mt19937_64 engine(6);
+  TriangleMesh mesh = testing::cube(9);
+  for (Vec3& p : mesh.positions) {
+    // Within the sides: edges would turn, and vertices would be evened out.
+    for (int axis = 0; axis < 3; ++axis) {
+      const double by = uniform(engine, -0.05, 0.05);
+      if (std::abs(p[axis]) < 0.99) p[axis] += by;
+    }
+  }
+  const TriangleMesh before = mesh;
+  std::vector<Vec3> points = cube_points(12'000, engine);
+  std::erase_if(points, [](const Vec3& p) { return p.x < 0.999; });
+  fit_faces(mesh, points, {.reach = kReach});
+  REQUIRE(mesh.positions != before.positions);
+  CHECK(testing::volume_of(mesh) == Approx(8.0).epsilon(0.001));
+  for (const Vec3& p : mesh.positions) {
+    const double farthest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    CHECK(farthest == Approx(1.0).margin(0.003));
+  }
+}
+
 TEST_CASE("no angle under 31 degrees arises, whatever the points ask for") {
   std::mt19937_64 engine(3);
   std::vector<Vec3> points(4000);
