@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <iterator>
 
-#include "core/base/parallel.h"
 #include "core/base/sphere_set.h"
 #include "core/base/symmetric_eigen.h"
 #include "core/finish/left_out_points.h"
+#include "core/finish/places_near.h"
 #include "core/finish/point_grid.h"
 #include "core/finish/unsupported_faces.h"
 #include "core/mesh/places.h"
@@ -36,7 +36,6 @@ constexpr double kBent = 1.5;
 constexpr double kNear = 3.0;
 /// In h: what lies beyond the mesh.
 constexpr double kRegionMargin = 6.0;
-constexpr std::size_t kGrain = 256;
 
 /// Faces by their centroids.
 struct Faces {
@@ -51,15 +50,11 @@ std::array<Vec3, 4> places_on(const TriangleMesh& mesh, const Triangle& face) {
 }
 
 Faces faces_without_points(const TriangleMesh& mesh, const PointGrid& cloud, double h) {
-  std::vector<std::uint8_t> is_bare(mesh.triangles.size(), 0);
-  parallel_for(is_bare.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f) {
-      const std::array<Vec3, 4> places = places_on(mesh, mesh.triangles[f]);
-      const bool has_points = std::all_of(places.begin(), places.end(), [&](const Vec3& place) {
-        return is_supported(cloud, place, h, kFaceSupport);
-      });
-      is_bare[f] = has_points ? 0 : 1;
-    }
+  const std::vector<std::uint8_t> is_bare = flags_of(mesh.triangles.size(), [&](std::size_t f) {
+    const std::array<Vec3, 4> places = places_on(mesh, mesh.triangles[f]);
+    return !std::all_of(places.begin(), places.end(), [&](const Vec3& place) {
+      return is_supported(cloud, place, h, kFaceSupport);
+    });
   });
   Faces bare;
   for (std::size_t f = 0; f < is_bare.size(); ++f) {
@@ -70,23 +65,6 @@ Faces faces_without_points(const TriangleMesh& mesh, const PointGrid& cloud, dou
         0.5 * glm::length(area_vector(mesh.positions[a], mesh.positions[b], mesh.positions[c])));
   }
   return bare;
-}
-
-std::vector<Vec3> points_near(std::span<const Vec3> points, const PointGrid& centers,
-                              double radius) {
-  std::vector<std::uint8_t> is_near(points.size(), 0);
-  parallel_for(points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      centers.for_each_near(points[i], radius, [&](const Vec3& offset) {
-        if (glm::dot(offset, offset) <= radius * radius) is_near[i] = 1;
-      });
-    }
-  });
-  std::vector<Vec3> near;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (is_near[i] != 0) near.push_back(points[i]);
-  }
-  return near;
 }
 
 std::vector<Vec3> points_in(const Sphere& sphere, const PointGrid& points) {
