@@ -16,6 +16,7 @@ namespace rangezip {
 namespace {
 
 constexpr int kRounds = 2;        ///< of {snap, cut out and close what crosses}
+constexpr int kReachRounds = 2;   ///< of {bring rims out, snap again around}
 constexpr int kRoundsAround = 4;  ///< of snapping again, without what crosses
 /// Edges around what has changed: so far vertices are snapped again, and so far features and clean
 /// surfaces are looked for.
@@ -75,16 +76,18 @@ void snap_around(TriangleMesh& mesh, std::span<const std::uint32_t> came, const 
 void sharpen(TriangleMesh& mesh, const PointGrid& cloud, const SnapOptions& snapping,
              const FinishOptions& options, FinishReport& report, const Progress& progress) {
   snap(mesh, cloud, snapping, options, report, progress);
-  const TriangleMesh before = geometry_of(mesh);
-  const std::size_t moves = reach_points(
-      mesh, cloud,
-      {.pixel_size = snapping.pixel_size, .edge = snapping.edge, .noise = snapping.fit.noise},
-      progress);
-  if (moves == 0) return;
-  report.rim_moves += moves;
-  separate(mesh, find_face_changes(before, mesh).made, cloud, options, report, progress);
-  const std::vector<std::uint32_t> came = find_face_changes(before, mesh).made;
-  snap_around(mesh, came, cloud, snapping, report, progress);
+  for (int round = 0; round < kReachRounds; ++round) {
+    const TriangleMesh before = geometry_of(mesh);
+    const std::size_t moves = reach_points(
+        mesh, cloud,
+        {.pixel_size = snapping.pixel_size, .edge = snapping.edge, .noise = snapping.fit.noise},
+        progress);
+    if (moves == 0) return;
+    report.rim_moves += moves;
+    separate(mesh, find_face_changes(before, mesh).made, cloud, options, report, progress);
+    const std::vector<std::uint32_t> came = find_face_changes(before, mesh).made;
+    snap_around(mesh, came, cloud, snapping, report, progress);
+  }
 }
 
 }  // namespace rangezip
