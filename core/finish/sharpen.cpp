@@ -16,7 +16,7 @@ namespace rangezip {
 namespace {
 
 constexpr int kRounds = 2;        ///< of {snap, cut out and close what crosses}
-constexpr int kReachRounds = 2;   ///< of {bring rims out, snap again around}
+constexpr int kReachRounds = 3;   ///< of {bring rims out, snap again around}
 constexpr int kRoundsAround = 4;  ///< of snapping again, without what crosses
 /// Edges around what has changed: so far vertices are snapped again, and so far features and clean
 /// surfaces are looked for.
@@ -85,6 +85,7 @@ void sharpen(TriangleMesh& mesh, const PointGrid& cloud, const SnapOptions& snap
     if (moves == 0) return;
     report.rim_moves += moves;
     separate(mesh, find_face_changes(before, mesh).made, cloud, options, report, progress);
+    if (round + 1 == kReachRounds) return;
     const std::vector<std::uint32_t> came = find_face_changes(before, mesh).made;
     snap_around(mesh, came, cloud, snapping, report, progress);
   }

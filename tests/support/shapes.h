@@ -148,6 +148,21 @@ inline TriangleSoup shell(double thickness, double radius = 1.0, int rings = 32)
   return soup;
 }
 
+/// Two flat cones on one another, whose rim is cut off so far inside; closed. The profile has
+/// points 1 apart.
+inline TriangleSoup double_cone(double radius, double slope, double cut_off, int segments) {
+  std::vector<Vec2> profile;
+  const double end = radius - cut_off;
+  for (double r = 0.0; r < end; r += 1.0)
+    profile.emplace_back(r, -slope * (radius - r));
+  const std::size_t inner = profile.size();
+  profile.emplace_back(end, -slope * cut_off);
+  if (cut_off > 0.0) profile.emplace_back(end, slope * cut_off);
+  for (std::size_t i = inner; i-- > 0;)
+    profile.emplace_back(profile[i].x, -profile[i].y);
+  return revolved(profile, false, segments);
+}
+
 inline TriangleSoup torus(double radius = 1.0, double tube = 0.4, int segments = 128) {
   std::vector<Vec2> profile;
   const int around = segments / 2;

@@ -23,17 +23,8 @@ constexpr double kCutOff = 2.0;
 constexpr int kSegments = 110;
 constexpr ReachPointsOptions kOptions{.pixel_size = kH, .edge = 1.1 * kH, .noise = 0.0};
 
-/// Two flat cones on one another, whose rim is cut off so far inside.
 TriangleSoup double_cone(double cut_off) {
-  std::vector<Vec2> profile;
-  const double end = kRadius - cut_off;
-  for (double radius = 0.0; radius < end; radius += kH)
-    profile.emplace_back(radius, -kSlope * (kRadius - radius));
-  profile.emplace_back(end, -kSlope * cut_off);
-  if (cut_off > 0.0) profile.emplace_back(end, kSlope * cut_off);
-  for (std::size_t i = profile.size() - (cut_off > 0.0 ? 2 : 1); i-- > 0;)
-    profile.emplace_back(profile[i].x, -profile[i].y);
-  return shapes::revolved(profile, false, kSegments);
+  return shapes::double_cone(kRadius, kSlope, cut_off, kSegments);
 }
 
 TriangleMesh cut_off_cone() {
