@@ -1,6 +1,7 @@
 #include "core/finish/reach_points.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -37,7 +38,7 @@ constexpr double kLongEdge = 1.5;      ///< of the mean edge
 constexpr double kOneSide = 0.9;       ///< between the faces of an edge that may turn
 constexpr double kAngleGain = 0.005;
 constexpr int kRounds = 10;
-constexpr int kHalvings = 2;
+constexpr std::array kShares{1.0, 0.5};  ///< of the way, the first that is good
 constexpr std::uint32_t kNone = CornerTable::kNone;
 
 PointGrid grid_of(const std::vector<Vec3>& places, double cell) {
@@ -178,8 +179,7 @@ class Reacher {
     const double error = error_around(v, near);
     const double sharpest = std::min(sharpest_around(v), kSharp);
     const int in_air = places_in_air(v);
-    double share = 1.0;
-    for (int halving = 0; halving < kHalvings; ++halving, share *= 0.5) {
+    for (const double share : kShares) {
       positions_[v] = place + share * (candidate.farthest - place);
       if (sharpest_around(v) >= sharpest && !is_folded(v) &&
           error_around(v, near) <= kGain * error && places_in_air(v) <= in_air) {
