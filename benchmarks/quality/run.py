@@ -176,7 +176,7 @@ CASES = [
          bounds=CLEAN + CLOSED + GOOD_ANGLES + [Bound('accuracy_rms', '<=', 0.0003, True),
                                                 Bound('fscore_01', '>=', 0.98), Bound('normal_dev_p95', '<=', 12.0)]),
     decimated('fandisk 100 K, decimated', 'mesh/fandisk.obj', 100_000, 1, 0.007),
-    decimated('fandisk 400 K, decimated', 'mesh/fandisk.obj', 400_000, 1, 0.01),
+    decimated('fandisk 400 K, decimated', 'mesh/fandisk.obj', 400_000, 1, 0.006),
     decimated('fandisk 400 K, quad-trees', 'mesh/fandisk.obj', 400_000, 1, 0.08, finish='fast'),
     Case('igea 400 K', Sampled('mesh/igea.ply', 400_000, 3), bounds=CLEAN + CLOSED + GOOD_ANGLES + cost(6, 300)),
     Case('Laurana 400 K', Sampled('mesh/Laurana50k.ply', 400_000, 1), bounds=CLEAN + GOOD_ANGLES + cost(6, 300)),
