@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "core/finish/corner_table.h"
-
 namespace rangezip {
 
 FacePart face_part(const TriangleMesh& mesh, const std::vector<std::uint8_t>& is_in) {
@@ -29,19 +27,15 @@ FacePart face_part(const TriangleMesh& mesh, const std::vector<std::uint8_t>& is
 
 std::vector<std::uint8_t> vertices_within(const TriangleMesh& mesh,
                                           std::span<const std::uint32_t> faces, int edges) {
-  const CornerTable table(mesh.triangles, mesh.positions.size());
   std::vector<std::uint8_t> is_in(mesh.positions.size(), 0);
-  std::vector<std::uint32_t> found;
-  const auto add = [&](std::uint32_t v) {
-    if (is_in[v] == 0) found.push_back(v);
-    is_in[v] = 1;
-  };
+  const auto add = [&](std::uint32_t v) { is_in[v] = 1; };
   for (const std::uint32_t f : faces)
     std::for_each(mesh.triangles[f].begin(), mesh.triangles[f].end(), add);
-  std::size_t begin = 0;
   for (int edge = 0; edge < edges; ++edge) {
-    for (const std::size_t end = found.size(); begin < end; ++begin)
-      table.for_each_neighbor(found[begin], add);
+    const std::vector<std::uint8_t> before = is_in;
+    for (const Triangle& t : mesh.triangles) {
+      if ((before[t[0]] | before[t[1]] | before[t[2]]) != 0) std::for_each(t.begin(), t.end(), add);
+    }
   }
   return is_in;
 }

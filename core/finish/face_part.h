@@ -22,8 +22,7 @@ struct FacePart {
 /// @param is_in per face of the mesh
 [[nodiscard]] FacePart face_part(const TriangleMesh& mesh, const std::vector<std::uint8_t>& is_in);
 
-/// Flags the vertices of faces, and those up to so many edges away. O(vertices + faces).
-/// @pre oriented, manifold
+/// Flags the vertices of faces, and those up to so many edges away. O(edges faces).
 [[nodiscard]] std::vector<std::uint8_t> vertices_within(const TriangleMesh& mesh,
                                                         std::span<const std::uint32_t> faces,
                                                         int edges);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/finish/clean_topology.h"
 #include "core/finish/face_part.h"
 #include "core/finish/reach_points.h"
 #include "core/finish/separate.h"
@@ -43,6 +44,13 @@ void snap(TriangleMesh& mesh, const PointGrid& cloud, const SnapOptions& snappin
   }
 }
 
+/// Whether a mesh is oriented and manifold: what was done to a part must fit the rest.
+bool is_sound(const TriangleMesh& mesh) {
+  TriangleMesh cleaned = mesh;
+  clean_topology(cleaned);
+  return cleaned.triangles == mesh.triangles;
+}
+
 /// Snaps again around faces that came.
 void snap_around(TriangleMesh& mesh, std::span<const std::uint32_t> came, const PointGrid& cloud,
                  SnapOptions snapping, FinishReport& report, const Progress& progress) {
@@ -57,6 +65,7 @@ void snap_around(TriangleMesh& mesh, std::span<const std::uint32_t> came, const 
     if (snapped.snapped_vertices == 0) return;
     TriangleMesh after = mesh;
     put_back(std::move(part_after), after);
+    if (!is_sound(after)) return;
     const std::vector<std::uint32_t> changed = find_face_changes(mesh, after).made;
     const auto crossing = self_intersections(after, changed);
     if (crossing.empty()) {
@@ -77,12 +86,16 @@ void sharpen(TriangleMesh& mesh, const PointGrid& cloud, const SnapOptions& snap
              const FinishOptions& options, FinishReport& report, const Progress& progress) {
   snap(mesh, cloud, snapping, options, report, progress);
   for (int round = 0; round < kReachRounds; ++round) {
-    const TriangleMesh before = geometry_of(mesh);
+    const TriangleMesh before = mesh;
     const std::size_t moves = reach_points(
         mesh, cloud,
         {.pixel_size = snapping.pixel_size, .edge = snapping.edge, .noise = snapping.fit.noise},
         progress);
     if (moves == 0) return;
+    if (!is_sound(mesh)) {
+      mesh = before;
+      return;
+    }
     report.rim_moves += moves;
     separate(mesh, find_face_changes(before, mesh).made, cloud, options, report, progress);
     if (round + 1 == kReachRounds) return;
