@@ -318,6 +318,8 @@ class Reacher {
     table_.for_each_corner(v, [&](std::uint32_t c) {
       if (table_.across(c) == kNone) return;
       const Diamond d(table_, c);
+      // At the end of the part the two may be neighbours outside of it.
+      if (table_.is_boundary(d.x) || table_.is_boundary(d.y)) return;
       const DiamondAreas areas(positions_, d);
       if (!has_cosine(areas.old_x, areas.old_y, kOneSide) ||
           !has_cosine(areas.new_a, areas.new_b, kOneSide) ||
