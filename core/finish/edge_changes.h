@@ -37,6 +37,13 @@ struct DiamondAreas {
         new_b(area_vector(p[d.b], p[d.x], p[d.y])) {}
 };
 
+/// Whether a diamond's faces, before and after the edge has turned, all look the same way.
+[[nodiscard]] inline bool is_flat(const DiamondAreas& areas, double cosine) {
+  return has_cosine(areas.old_x, areas.old_y, cosine) &&
+         has_cosine(areas.new_a, areas.new_b, cosine) &&
+         has_cosine(areas.new_a, areas.old_x, cosine);
+}
+
 /// Sine of the smallest angle of a diamond's two faces.
 [[nodiscard]] inline double angle_before_flip(const std::vector<Vec3>& p, const Diamond& d) {
   return std::min(sine_of_smallest_angle(p[d.a], p[d.b], p[d.x]),

@@ -320,12 +320,7 @@ class Reacher {
       const Diamond d(table_, c);
       // At the end of the part the two may be neighbours outside of it.
       if (table_.is_boundary(d.x) || table_.is_boundary(d.y)) return;
-      const DiamondAreas areas(positions_, d);
-      if (!has_cosine(areas.old_x, areas.old_y, kOneSide) ||
-          !has_cosine(areas.new_a, areas.new_b, kOneSide) ||
-          !has_cosine(areas.new_a, areas.old_x, kOneSide)) {
-        return;
-      }
+      if (!is_flat(DiamondAreas(positions_, d), kOneSide)) return;
       const double gain = angle_after_flip(positions_, d) - angle_before_flip(positions_, d);
       if (gain <= most || !table_.is_flip_ok(c)) return;
       most = gain;

@@ -152,7 +152,7 @@ class Relaxer {
     table_.for_each_corner(v, [&](std::uint32_t c) {
       if (table_.across(c) == CornerTable::kNone || !sides_.may_change(table_.head(c))) return;
       const Diamond d(table_, c);
-      if (!is_one_side(d)) return;
+      if (!is_flat(DiamondAreas(positions_, d), kOneSide)) return;
       const double gain = angle_after_flip(positions_, d) - angle_before_flip(positions_, d);
       if (gain <= most || !table_.is_flip_ok(c)) return;
       most = gain;
@@ -189,14 +189,6 @@ class Relaxer {
           std::min(smallest, is_right ? sine_of_smallest_angle(at(target), at(p), at(q)) : -1.0);
     });
     return smallest;
-  }
-
-  /// Whether the faces of an edge, and those after turning it, all look the same way.
-  [[nodiscard]] bool is_one_side(const Diamond& d) const {
-    const DiamondAreas areas(positions_, d);
-    return has_cosine(areas.old_x, areas.old_y, kOneSide) &&
-           has_cosine(areas.new_a, areas.new_b, kOneSide) &&
-           has_cosine(areas.new_a, areas.old_x, kOneSide);
   }
 
   CornerTable& table_;
