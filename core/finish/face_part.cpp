@@ -1,7 +1,7 @@
 #include "core/finish/face_part.h"
 
-#include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace rangezip {
 
@@ -28,14 +28,16 @@ FacePart face_part(const TriangleMesh& mesh, const std::vector<std::uint8_t>& is
 std::vector<std::uint8_t> vertices_within(const TriangleMesh& mesh,
                                           std::span<const std::uint32_t> faces, int edges) {
   std::vector<std::uint8_t> is_in(mesh.positions.size(), 0);
-  const auto add = [&](std::uint32_t v) { is_in[v] = 1; };
-  for (const std::uint32_t f : faces)
-    std::for_each(mesh.triangles[f].begin(), mesh.triangles[f].end(), add);
+  for (const std::uint32_t f : faces) {
+    for (const std::uint32_t v : mesh.triangles[f])
+      is_in[v] = 1;
+  }
   for (int edge = 0; edge < edges; ++edge) {
-    const std::vector<std::uint8_t> before = is_in;
-    for (const Triangle& t : mesh.triangles) {
-      if ((before[t[0]] | before[t[1]] | before[t[2]]) != 0) std::for_each(t.begin(), t.end(), add);
+    std::vector<std::uint8_t> wider = is_in;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      if ((is_in[a] | is_in[b] | is_in[c]) != 0) wider[a] = wider[b] = wider[c] = 1;
     }
+    is_in = std::move(wider);
   }
   return is_in;
 }
