@@ -182,25 +182,26 @@ FINGER_SIZES = [1.0, 1.5, 2.0, 2.5, 3.0]
 FINGER_WINDOWS = 5
 
 
-def fingers_and_folds(length=243.0, width=48.0, height=5.0):
+def fingers_and_folds(length=233.0, width=48.0, height=5.0):
     """A slab with square fingers on its top and folds below; gaps as wide as what they part, by FINGER_SIZES.
 
-    Windows through a fold of the last size make the genus FINGER_WINDOWS. Long enough that the pixel is 2.2
-    spacings of the points; 400 K of them make it 1."""
+    Windows through a fold of the last size, with as much above and below them as that, make the genus
+    FINGER_WINDOWS. Long enough that the pixel is 2.2 spacings of the points; 400 K of them make it 1."""
     body = Blocks().add([0, 0, 0], [length, width, 6])
     strip = length / len(FINGER_SIZES)
     for i, size in enumerate(FINGER_SIZES):
+        depth = height if size < FINGER_SIZES[-1] else 3 * size
         count = int((strip - size) / (2 * size))
         for k in range(count):
             x = i * strip + size + 2 * size * k
-            body.add([x, 2, -height], [x + size, width - 2, 0])
+            body.add([x, 2, -depth], [x + size, width - 2, 0])
             for m in range(int((width - size) / (2 * size))):
                 y = size + 2 * size * m
                 body.add([x, y, 6], [x + size, y + size, 6 + height])
             if size == FINGER_SIZES[-1]:
                 for window in range(FINGER_WINDOWS if k == count - 1 else 0):
                     y = width * (window + 1) / (FINGER_WINDOWS + 1)
-                    body.cut([x, y, -height + 1], [x + size, y + 4, -1])
+                    body.cut([x, y, -2 * size], [x + size, y + 4, -size])
     return body.surface()
 
 

@@ -6,9 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "core/finish/boundary_loops.h"
-#include "core/finish/components.h"
-#include "core/finish/corner_table.h"
 #include "core/finish/loop_neighbors.h"
 #include "core/finish/unsupported_faces.h"
 
@@ -26,13 +23,13 @@ constexpr double kMinCosineBeside = -0.3;
 
 class Bridger {
  public:
-  Bridger(TriangleMesh& mesh, const PointGrid& cloud, double pixel_size)
+  Bridger(TriangleMesh& mesh, const MeshPieces& pieces, const PointGrid& cloud, double pixel_size)
       : mesh_(mesh),
         cloud_(cloud),
         h_(pixel_size),
-        table_(mesh.triangles, mesh.positions.size()),
-        loops_(boundary_loops(table_)),
-        component_(components_of(table_)),
+        table_(pieces.table),
+        loops_(pieces.loops),
+        component_(pieces.component),
         joined_(component_.empty() ? 0
                                    : 1 + *std::max_element(component_.begin(), component_.end())) {
     std::iota(joined_.begin(), joined_.end(), 0U);
@@ -118,16 +115,17 @@ class Bridger {
   TriangleMesh& mesh_;
   const PointGrid& cloud_;
   double h_;
-  CornerTable table_;
-  std::vector<BoundaryLoop> loops_;
-  std::vector<std::uint32_t> component_;  ///< of each face
-  std::vector<std::uint32_t> joined_;     ///< one name for all components that bridges joined
+  const CornerTable& table_;
+  const std::vector<BoundaryLoop>& loops_;
+  const std::vector<std::uint32_t>& component_;
+  std::vector<std::uint32_t> joined_;  ///< one name for all components that bridges joined
 };
 
 }  // namespace
 
-std::size_t bridge_loops(TriangleMesh& mesh, const PointGrid& cloud, double pixel_size) {
-  return Bridger(mesh, cloud, pixel_size).run();
+std::size_t bridge_loops(TriangleMesh& mesh, const MeshPieces& pieces, const PointGrid& cloud,
+                         double pixel_size) {
+  return Bridger(mesh, pieces, cloud, pixel_size).run();
 }
 
 }  // namespace rangezip

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "core/finish/mesh_pieces.h"
 #include "core/finish/point_grid.h"
 #include "core/mesh/triangle_mesh.h"
 
@@ -14,10 +15,12 @@ namespace rangezip {
 /// through the air: half way across it the cloud has points within 0.75 h, or one spacing; and at
 /// half of the places where the loops lie over 1.6 h apart. So two surfaces that face each other
 /// stay apart. Positions stay.
+/// @param pieces of the mesh, as it is before
 /// @param cloud points of the cloud; may be empty: no evidence is asked for
 /// @param pixel_size h, model units; positive
 /// @pre oriented, manifold
 /// @return number of bridges; their faces are the last ones of the mesh, two each
-std::size_t bridge_loops(TriangleMesh& mesh, const PointGrid& cloud, double pixel_size);
+std::size_t bridge_loops(TriangleMesh& mesh, const MeshPieces& pieces, const PointGrid& cloud,
+                         double pixel_size);
 
 }  // namespace rangezip

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/finish/components.h"
 #include "core/finish/corner_table.h"
 
 namespace rangezip {
@@ -133,9 +132,10 @@ std::size_t clean_topology(TriangleMesh& mesh) {
   return before - mesh.triangles.size();
 }
 
-DroppedComponents drop_small_components(TriangleMesh& mesh, std::size_t min_faces) {
-  const CornerTable table(mesh.triangles, mesh.positions.size());
-  const std::vector<std::uint32_t> component = components_of(table);
+DroppedComponents drop_small_components(TriangleMesh& mesh, const MeshPieces& pieces,
+                                        std::size_t min_faces) {
+  const CornerTable& table = pieces.table;
+  const std::vector<std::uint32_t>& component = pieces.component;
   std::vector<std::size_t> sizes;
   std::vector<std::uint8_t> is_open;
   for (std::uint32_t c = 0; c < table.corner_count(); ++c) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "core/finish/mesh_pieces.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace rangezip {
@@ -21,7 +22,8 @@ struct DroppedComponents {
 /// open ones with less than a two-hundredth of the faces of the largest component, which are
 /// pieces of walls in pockets that no view connects. The largest one (the earliest of equals)
 /// always stays. With 0 all stay. Positions stay.
-/// @pre oriented and manifold
-DroppedComponents drop_small_components(TriangleMesh& mesh, std::size_t min_faces);
+/// @param pieces of the mesh, as it is before
+DroppedComponents drop_small_components(TriangleMesh& mesh, const MeshPieces& pieces,
+                                        std::size_t min_faces);
 
 }  // namespace rangezip

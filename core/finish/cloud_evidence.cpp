@@ -28,11 +28,7 @@ AirTest air_test(const CloudEvidence& evidence, std::span<const Vec3> border) {
   const double reach =
       std::max(kCloseSupport.pixels * evidence.pixel_size, kCloseSupport.spacings * *middle);
   return [cloud = evidence.cloud, reach](const Vec3& place) {
-    bool found = false;
-    cloud->for_each_near(place, reach, [&](const Vec3& offset) {
-      found = found || glm::dot(offset, offset) <= reach * reach;
-    });
-    return !found;
+    return !cloud->has_point_within(place, reach);
   };
 }
 

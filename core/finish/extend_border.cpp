@@ -255,7 +255,8 @@ class Extender {
     }
     remove_triangles(mesh_.triangles, goes);
     clean_topology(mesh_);
-    const DroppedComponents dropped = drop_small_components(mesh_, min_component_);
+    const DroppedComponents dropped =
+        drop_small_components(mesh_, pieces_of(mesh_), min_component_);
     sum.components += dropped.components;
     sum.faces += dropped.faces;
   }

@@ -15,6 +15,11 @@ constexpr double kFreeCells = 4096.0;
 constexpr double kFirstReach = 0.25;
 constexpr double kReachGrowth = 3.0;
 
+/// From a place to the nearest one of a box, up to signs.
+Vec3 way_to(const Box& box, const Vec3& place) {
+  return glm::max(glm::max(box.lower - place, place - box.upper), Vec3(0.0));
+}
+
 }  // namespace
 
 FaceGrid::FaceGrid(const TriangleMesh& mesh, const CornerTable& table, double reach) : mesh_(mesh) {
@@ -104,6 +109,9 @@ std::uint32_t FaceGrid::nearest_face_within(const Vec3& place, double distance) 
   for_each_cell({place - distance, place + distance}, [&](std::size_t at) {
     for (std::size_t i = starts_[at]; i < starts_[at + 1]; ++i) {
       const Triangle& t = mesh_.triangles[entries_[i]];
+      const Vec3 to_box = way_to(box_of(entries_[i]), place);
+      if (glm::dot(to_box, to_box) > least)
+        continue;  // most: that takes a third of the time to see
       const Vec3 offset = closest_point_on_triangle(place, mesh_.positions[t[0]],
                                                     mesh_.positions[t[1]], mesh_.positions[t[2]]) -
                           place;

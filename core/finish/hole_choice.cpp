@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/finish/other_wall.h"
 #include "core/finish/unsupported_faces.h"
@@ -125,10 +126,7 @@ FillInside look_inside(const LoopGeometry& loop, const HoleFill& fill, const Poi
     inside.width = std::max(inside.width, 2.0 * distance);
     if (distance < kInsideMargin * pixel_size) continue;
     ++samples;
-    bool found = false;
-    cloud.for_each_near(p, radius,
-                        [&](const Vec3& d) { found = found || glm::dot(d, d) < radius * radius; });
-    supported += found ? 1 : 0;
+    supported += cloud.has_point_within(p, radius) ? 1 : 0;
   }
   if (samples >= kMinEvidenceSamples)
     inside.shown = supported > kEvidenceShare * samples ? Inside::points : Inside::air;
@@ -171,25 +169,28 @@ std::optional<FillChoice> choose_fill(const std::vector<Vec3>& positions, const 
   const double h = options.pixel_size;
   if (loop.corners.size() > kMaxEdges) return std::nullopt;
   const LoopGeometry geometry = geometry_of(positions, table, loop);
-  if (geometry.perimeter <= kSmallPerimeter * h) return FillChoice{FillShape::smooth};
+  if (geometry.perimeter <= kSmallPerimeter * h) return FillChoice{.shape = FillShape::smooth};
   if (is_outline(geometry, positions, table, loop, h)) {
     if (!is_lost_wall(positions, table, loop, cloud, options)) return std::nullopt;
-    return FillChoice{FillShape::smooth, true};
+    return FillChoice{.shape = FillShape::smooth, .is_wall = true};
   }
   const CloudEvidence evidence = options.is_sampled ? CloudEvidence{&cloud, h} : CloudEvidence{};
-  const HoleFill fill = fill_loop(positions, table, loop, FillShape::smooth, h, evidence);
+  HoleFill fill = fill_loop(positions, table, loop, FillShape::smooth, h, evidence);
   const FillInside inside = look_inside(geometry, fill, cloud, h);
-  if (inside.shown == Inside::points) return FillChoice{FillShape::smooth};
+  const auto smooth = [&] {
+    return FillChoice{.shape = FillShape::smooth, .fill = std::move(fill)};
+  };
+  if (inside.shown == Inside::points) return smooth();
   const auto has_gap = [&] { return is_left_out(geometry, positions, fill, cloud, h); };
   if (is_rim(geometry, is_zipped, h) && (!options.is_sampled || has_gap())) return std::nullopt;
-  if (inside.width < options.narrow_width * h) return FillChoice{FillShape::flat};
-  if (!is_zipped) return FillChoice{FillShape::zipped};
+  if (inside.width < options.narrow_width * h) return FillChoice{.shape = FillShape::flat};
+  if (!is_zipped) return FillChoice{.shape = FillShape::zipped};
   const bool is_to_close = geometry.perimeter <= options.max_hole_perimeter * h;
   if (!is_to_close && options.is_sampled && has_gap()) return std::nullopt;
   const double limit = std::max(options.max_hole_perimeter, kLargePerimeter) * h;
   if (geometry.perimeter > limit && inside.width > kLargeWidth * limit) return std::nullopt;
-  return FillChoice{geometry.perimeter <= kSmoothPerimeter * h ? FillShape::smooth
-                                                               : FillShape::flat};
+  if (geometry.perimeter <= kSmoothPerimeter * h) return smooth();
+  return FillChoice{.shape = FillShape::flat};
 }
 
 Inside inside_of_fill(const std::vector<Vec3>& positions, const CornerTable& table,

@@ -20,6 +20,7 @@ struct HoleChoiceOptions {
 struct FillChoice {
   FillShape shape = FillShape::smooth;
   bool is_wall = false;  ///< of something thin: each face around the loop that goes is a loss
+  HoleFill fill;         ///< if one of this shape had to be made for the choice
 };
 
 /// Whether a boundary loop is a gap in what was scanned, and then how to close it, or the border of

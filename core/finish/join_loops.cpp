@@ -7,10 +7,8 @@
 #include <utility>
 
 #include "core/base/parallel.h"
-#include "core/finish/boundary_loops.h"
-#include "core/finish/components.h"
-#include "core/finish/corner_table.h"
 #include "core/finish/hole_choice.h"
+#include "core/finish/hole_filling.h"
 #include "core/finish/loop_neighbors.h"
 #include "core/finish/loop_triangulation.h"
 #include "core/finish/unsupported_faces.h"
@@ -104,20 +102,21 @@ std::vector<Edge> inner_edges(const std::vector<Triangle>& triangles) {
 
 class Joiner {
  public:
-  Joiner(const TriangleMesh& mesh, const PointGrid& cloud, double pixel_size)
+  Joiner(const TriangleMesh& mesh, const MeshPieces& pieces, const PointGrid& cloud,
+         double pixel_size)
       : mesh_(mesh),
         cloud_(cloud),
         h_(pixel_size),
-        table_(mesh.triangles, mesh.positions.size()),
-        loops_(boundary_loops(table_)) {}
+        table_(pieces.table),
+        loops_(pieces.loops),
+        component_(pieces.component) {}
 
   /// The strips to close, none of which shares a loop with another.
   [[nodiscard]] std::vector<Strip> strips() const {
     if (loops_.size() < 2) return {};
-    const std::vector<std::uint32_t> component = components_of(table_);
     const auto are_wanted = [&](std::uint32_t a, std::uint32_t b) {
       return std::max(loops_[a].corners.size(), loops_[b].corners.size()) <= kMaxEdges &&
-             component[loops_[a].corners[0] / 3] == component[loops_[b].corners[0] / 3];
+             component_[loops_[a].corners[0] / 3] == component_[loops_[b].corners[0] / 3];
     };
     const std::vector<LoopNeighbors> neighbors =
         loop_neighbors(loops_, table_, mesh_.positions, kMaxGap * h_, are_wanted);
@@ -278,14 +277,16 @@ class Joiner {
   const TriangleMesh& mesh_;
   const PointGrid& cloud_;
   double h_;
-  CornerTable table_;
-  std::vector<BoundaryLoop> loops_;
+  const CornerTable& table_;
+  const std::vector<BoundaryLoop>& loops_;
+  const std::vector<std::uint32_t>& component_;
 };
 
 }  // namespace
 
-JoinedLoops join_loops(TriangleMesh& mesh, const PointGrid& cloud, double pixel_size) {
-  const std::vector<Strip> strips = Joiner(mesh, cloud, pixel_size).strips();
+JoinedLoops join_loops(TriangleMesh& mesh, const MeshPieces& pieces, const PointGrid& cloud,
+                       double pixel_size) {
+  const std::vector<Strip> strips = Joiner(mesh, pieces, cloud, pixel_size).strips();
   std::vector<HoleFill> fills;
   fills.reserve(strips.size());
   for (const Strip& strip : strips)

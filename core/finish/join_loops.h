@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/finish/hole_filling.h"
+#include "core/finish/mesh_pieces.h"
 #include "core/finish/point_grid.h"
 #include "core/mesh/triangle_mesh.h"
 
@@ -36,9 +36,11 @@ struct JoinedLoops {
 /// small to tell: the faces around them may be all there is of a thin limb. O(faces), and for each
 /// pair of loops what a dozen of their fills cost. The mesh stays manifold and without
 /// self-intersections. In parallel.
+/// @param pieces of the mesh, as it is before
 /// @param cloud may be empty: then faces alone tell
 /// @param pixel_size h, model units; positive
 /// @pre oriented, manifold, no self-intersections
-JoinedLoops join_loops(TriangleMesh& mesh, const PointGrid& cloud, double pixel_size);
+JoinedLoops join_loops(TriangleMesh& mesh, const MeshPieces& pieces, const PointGrid& cloud,
+                       double pixel_size);
 
 }  // namespace rangezip

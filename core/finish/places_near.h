@@ -24,9 +24,6 @@ template <class IsIn>
   return flags;
 }
 
-/// Whether one of the places lies within `radius` of p.
-[[nodiscard]] bool is_near(const PointGrid& places, const Vec3& p, double radius);
-
 /// The points within `radius` of one of the places, in their order.
 [[nodiscard]] std::vector<Vec3> points_near(std::span<const Vec3> points, const PointGrid& places,
                                             double radius);

@@ -44,11 +44,25 @@ class PointGrid {
     for_each_run_near(place, radius, [&](std::size_t cell, std::size_t end, const Vec3& local) {
       for (std::size_t i = starts_[cell]; i < starts_[end]; ++i)
         visit(Vec3(positions_[i]) - local);
+      return true;
     });
   }
 
-  /// The same with how many points it counts as, visit(offset, count), but for points that are
-  /// known to face away from a unit normal (by more than 101 degrees).
+  /// Whether a point lies within `radius` of the place: no more are looked at than tell that.
+  [[nodiscard]] bool has_point_within(const Vec3& place, double radius) const {
+    bool found = false;
+    for_each_run_near(place, radius, [&](std::size_t cell, std::size_t end, const Vec3& local) {
+      for (std::size_t i = starts_[cell]; i < starts_[end] && !found; ++i) {
+        const Vec3 offset = Vec3(positions_[i]) - local;
+        found = glm::dot(offset, offset) <= radius * radius;
+      }
+      return !found;
+    });
+    return found;
+  }
+
+  /// The same as for_each_near with how many points it counts as, visit(offset, count), but for
+  /// points that are known to face away from a unit normal (by more than 101 degrees).
   template <class Visit>
   void for_each_counted_near(const Vec3& place, double radius, const Vec3& normal,
                              Visit visit) const {
@@ -60,6 +74,7 @@ class PointGrid {
         if (may_face_away && faces_away(facings_[i], side)) continue;
         visit(Vec3(positions_[i]) - local, counts_.empty() ? 1.0 : static_cast<double>(counts_[i]));
       }
+      return true;
     });
   }
 
@@ -83,7 +98,7 @@ class PointGrid {
   /// For every cell how many facings are known in those before it.
   void count_known_facings();
 
-  /// Calls visit(first cell, end, place in the grid) for rows of cells.
+  /// Calls visit(first cell, end, place in the grid) for rows of cells as long as it returns true.
   template <class Visit>
   void for_each_run_near(const Vec3& place, double radius, Visit visit) const {
     if (empty()) return;
@@ -100,7 +115,7 @@ class PointGrid {
     for (std::size_t z = lower[2]; z <= upper[2]; ++z) {
       for (std::size_t y = lower[1]; y <= upper[1]; ++y) {
         const std::size_t row = (z * dims_[1] + y) * dims_[0];
-        visit(row + lower[0], row + upper[0] + 1, local);
+        if (!visit(row + lower[0], row + upper[0] + 1, local)) return;
       }
     }
   }

@@ -28,6 +28,7 @@ constexpr double kMostNoise = 0.125;
 constexpr double kReach = 3.0;         ///< of rims that are short
 constexpr double kAround = 2.0;        ///< of such points: those that tell whether a move is good
 constexpr double kPart = 8.0;          ///< of such points: faces that may be met
+constexpr double kChanged = 8.0;       ///< of vertices that moved: points that may lead on
 constexpr double kHalf = 0.5;          ///< of the radius: cells of grids
 constexpr double kCrease = 0.5;        ///< 60 degrees
 constexpr std::size_t kMinPoints = 2;  ///< next to a vertex, to be reached
@@ -105,10 +106,20 @@ class Reacher {
     for (const std::uint32_t v : moved)
       turn_edges(v);
     mesh_.triangles = table_.triangles();
+    if (!moved.empty()) keep_points_near(moved);
     return moved.size();
   }
 
  private:
+  /// Vertices that have not moved, and are far from those that have, are hopeless.
+  void keep_points_near(const std::vector<std::uint32_t>& moved) {
+    std::vector<Vec3> places;
+    for (const std::uint32_t v : moved)
+      places.push_back(at(v));
+    const double radius = kChanged * options_.pixel_size;
+    points_ = points_near(points_, grid_of(places, kHalf * radius), radius);
+  }
+
   /// A vertex next to points that are to be reached.
   struct Candidate {
     std::uint32_t vertex = kNone;

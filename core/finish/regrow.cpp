@@ -75,9 +75,9 @@ void clear_way(TriangleMesh& mesh, std::span<const Vec3> off, const PointGrid& l
   const PointGrid off_mesh(off, region_of(mesh, h), 0.5 * kInTheWay * h);
   remove_triangles(mesh.triangles, flags_of(mesh.triangles.size(), [&](std::size_t f) {
                      const std::array<Vec3, 7> places = places_on(mesh, mesh.triangles[f]);
-                     return is_near(left_out, places[0], kDoubted * h) &&
+                     return left_out.has_point_within(places[0], kDoubted * h) &&
                             std::any_of(places.begin(), places.end(), [&](const Vec3& place) {
-                              return is_near(off_mesh, place, kInTheWay * h) ||
+                              return off_mesh.has_point_within(place, kInTheWay * h) ||
                                      !is_supported(cloud, place, h, kCloseSupport);
                             });
                    }));

@@ -17,6 +17,7 @@
 #include "core/finish/hole_choice.h"
 #include "core/finish/join_loops.h"
 #include "core/finish/local_plane.h"
+#include "core/finish/mesh_pieces.h"
 #include "core/finish/verified_fills.h"
 #include "core/mesh/self_intersection.h"
 
@@ -49,17 +50,19 @@ void cut_pairs(TriangleMesh& mesh, const Pairs& pairs, FinishReport& report) {
   report.self_intersections_cut += before - mesh.triangles.size();
 }
 
-void drop_small(TriangleMesh& mesh, const FinishOptions& options, FinishReport& report) {
-  const DroppedComponents dropped = drop_small_components(mesh, options.min_component);
+void drop_small(TriangleMesh& mesh, MeshPieces& pieces, const FinishOptions& options,
+                FinishReport& report) {
+  const DroppedComponents dropped = drop_small_components(mesh, pieces, options.min_component);
+  if (dropped.faces > 0) pieces = pieces_of(mesh);
   report.dropped_components += dropped.components;
   report.dropped_faces += dropped.faces;
 }
 
 /// Bridges whose faces cross anything are taken back.
-void bridge(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
-            FinishReport& report) {
+void bridge(TriangleMesh& mesh, MeshPieces& pieces, const PointGrid& cloud,
+            const FinishOptions& options, FinishReport& report) {
   const std::size_t before = mesh.triangles.size();
-  std::size_t bridges = bridge_loops(mesh, cloud, options.pixel_size);
+  std::size_t bridges = bridge_loops(mesh, pieces, cloud, options.pixel_size);
   if (bridges == 0) return;
   std::vector<std::uint32_t> added(mesh.triangles.size() - before);
   std::iota(added.begin(), added.end(), static_cast<std::uint32_t>(before));
@@ -70,6 +73,7 @@ void bridge(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& opt
     marked[first] = marked[first + 1] = 1;
   }
   remove_triangles(mesh.triangles, marked);
+  if (bridges > 0) pieces = pieces_of(mesh);
   report.bridged_loops += bridges;
 }
 
@@ -157,19 +161,34 @@ ChosenFills choose_fills(const TriangleMesh& mesh, const CornerTable& table,
   ChosenFills chosen;
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (!choices[i]) continue;
-    chosen.requests.push_back({std::move(loops[i]), choices[i]->shape});
+    chosen.requests.push_back(
+        {std::move(loops[i]), choices[i]->shape, std::move(choices[i]->fill)});
     chosen.is_wall.push_back(choices[i]->is_wall ? 1 : 0);
   }
   return chosen;
 }
 
+/// Joins loops around gaps in the walls of holes. @return of vertices: their loops are not to be
+/// filled in this round; empty: none
+std::vector<std::uint8_t> join(TriangleMesh& mesh, MeshPieces& pieces, int round,
+                               const PointGrid& cloud, const FinishOptions& options,
+                               FinishReport& report) {
+  JoinedLoops joined = join_loops(mesh, pieces, cloud, options.pixel_size);
+  if (joined.pairs > 0) pieces = pieces_of(mesh);
+  report.joined_loops += joined.pairs;
+  if (round >= kRoundsToJoin) return {};
+  return std::move(joined.is_hindered);
+}
+
+/// @param pieces of the mesh, as it is before
 /// @param round the first is 0
 /// @param is_hindered of vertices: their loops are not filled in this round; empty: none
-FillOutcome fill(TriangleMesh& mesh, int round, const std::vector<std::uint8_t>& is_hindered,
-                 const PointGrid& cloud, const HoleChoiceOptions& choice, FinishReport& report) {
+FillOutcome fill(TriangleMesh& mesh, MeshPieces pieces, int round,
+                 const std::vector<std::uint8_t>& is_hindered, const PointGrid& cloud,
+                 const HoleChoiceOptions& choice, FinishReport& report) {
   const bool is_zipped = round > 0;
-  const CornerTable table(mesh.triangles, mesh.positions.size());
-  std::vector<BoundaryLoop> loops = boundary_loops(table);
+  const CornerTable& table = pieces.table;
+  std::vector<BoundaryLoop> loops = std::move(pieces.loops);
   const std::vector<BoundaryLoop> hindered = hindered_among(loops, table, is_hindered);
   const ChosenFills chosen = choose_fills(mesh, table, std::move(loops), is_zipped, cloud, choice);
   const double h = choice.pixel_size;
@@ -244,12 +263,12 @@ void repair(TriangleMesh& mesh, const Pairs& crossing, const PointGrid& cloud,
   for (int round = 0; round < options.rounds; ++round) {
     progress.check_stop();
     clean_topology(mesh);
-    bridge(mesh, cloud, options, report);
-    drop_small(mesh, options, report);
-    JoinedLoops joined = join_loops(mesh, cloud, options.pixel_size);
-    report.joined_loops += joined.pairs;
-    if (round >= kRoundsToJoin) joined.is_hindered.clear();
-    const FillOutcome outcome = fill(mesh, round, joined.is_hindered, cloud, choice, report);
+    MeshPieces pieces = pieces_of(mesh);
+    bridge(mesh, pieces, cloud, options, report);
+    drop_small(mesh, pieces, options, report);
+    const std::vector<std::uint8_t> is_hindered = join(mesh, pieces, round, cloud, options, report);
+    const FillOutcome outcome =
+        fill(mesh, std::move(pieces), round, is_hindered, cloud, choice, report);
     if (outcome.is_done) break;
     if (round + 1 < options.rounds) {
       widen(mesh, outcome.unfilled);

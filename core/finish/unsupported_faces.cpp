@@ -59,7 +59,7 @@ bool is_supported(const TriangleMesh& mesh, const Triangle& face, const PointGri
 
 bool is_supported(const PointGrid& cloud, const Vec3& place, double pixel_size,
                   const SupportReach& reach) {
-  if (nearest_within(cloud, place, reach.pixels * pixel_size)) return true;
+  if (cloud.has_point_within(place, reach.pixels * pixel_size)) return true;
   const double farthest = kFarthest * pixel_size;
   const std::optional<Vec3> nearest = nearest_within(cloud, place, farthest);
   if (!nearest) return false;

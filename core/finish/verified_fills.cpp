@@ -65,6 +65,7 @@ FillVerdict judge_fills(const TriangleMesh& mesh, const std::vector<HoleFill>& f
 std::vector<HoleFill> fills_for(const TriangleMesh& mesh, const CornerTable& table,
                                 const FillRequest& request, FillShape shape,
                                 const VerifiedFillOptions& options) {
+  if (shape == request.shape && !request.fill.triangles.empty()) return {request.fill};
   if (shape == FillShape::zipped) {
     return zip_loop(mesh.positions, table, request.loop, options.zip_width, options.evidence);
   }

@@ -13,6 +13,7 @@ namespace rangezip {
 struct FillRequest {
   BoundaryLoop loop;
   FillShape shape = FillShape::smooth;
+  HoleFill fill;  ///< of that shape, with the same options, if it has been made before
 };
 
 struct VerifiedFillOptions {

@@ -15,22 +15,24 @@ namespace rangezip {
 
 namespace {
 
-/// A uniform grid that knows, per cell, the faces that come within a distance of the cell.
+/// A uniform grid that knows, of each cell that one of the points is in, the faces that come within
+/// a distance of the cell.
 class FaceGrid {
  public:
-  FaceGrid(const TriangleMesh& mesh, double distance) : mesh_(mesh), distance_(distance) {
+  FaceGrid(const TriangleMesh& mesh, std::span<const Vec3> points, double distance)
+      : mesh_(mesh), distance_(distance) {
     for (const Vec3& p : mesh.positions)
       bounds_.add(p);
     bounds_.lower -= Vec3(distance);
     bounds_.upper += Vec3(distance);
     choose_cells();
+    mark_cells(points);
     list_faces();
   }
 
+  /// @param point one of those that the grid was made for
   [[nodiscard]] bool is_near(const Vec3& point) const {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!(point[axis] >= bounds_.lower[axis] && point[axis] <= bounds_.upper[axis])) return false;
-    }
+    if (!is_in_bounds(point)) return false;
     const std::size_t cell = index_of(cell_of(point));
     const auto faces = std::span(faces_).subspan(first_[cell], first_[cell + 1] - first_[cell]);
     // Most points have a corner as near; that takes a tenth of the time to see.
@@ -55,6 +57,13 @@ class FaceGrid {
   }
 
   using Cell = std::array<int, 3>;
+
+  [[nodiscard]] bool is_in_bounds(const Vec3& point) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!(point[axis] >= bounds_.lower[axis] && point[axis] <= bounds_.upper[axis])) return false;
+    }
+    return true;
+  }
 
   void choose_cells() {
     // Four distances a cell keep the lists short; more where the grid would outgrow the mesh.
@@ -103,21 +112,27 @@ class FaceGrid {
     }
   }
 
-  void list_faces() {
-    const std::size_t cells = static_cast<std::size_t>(count_[0]) *
-                              static_cast<std::size_t>(count_[1]) *
-                              static_cast<std::size_t>(count_[2]);
-    first_.assign(cells + 1, 0);
-    for (const Triangle& triangle : mesh_.triangles) {
-      for_each_cell(triangle, [&](std::size_t cell) { ++first_[cell + 1]; });
+  void mark_cells(std::span<const Vec3> points) {
+    is_asked_.assign(static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]) *
+                         static_cast<std::size_t>(count_[2]),
+                     0);
+    for (const Vec3& p : points) {
+      if (is_in_bounds(p)) is_asked_[index_of(cell_of(p))] = 1;
     }
-    for (std::size_t cell = 0; cell < cells; ++cell)
+  }
+
+  void list_faces() {
+    first_.assign(is_asked_.size() + 1, 0);
+    for (const Triangle& triangle : mesh_.triangles) {
+      for_each_cell(triangle, [&](std::size_t cell) { first_[cell + 1] += is_asked_[cell]; });
+    }
+    for (std::size_t cell = 0; cell < is_asked_.size(); ++cell)
       first_[cell + 1] += first_[cell];
     faces_.resize(first_.back());
     std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
     for (std::size_t face = 0; face < mesh_.triangles.size(); ++face) {
       for_each_cell(mesh_.triangles[face], [&](std::size_t cell) {
-        faces_[next[cell]++] = static_cast<std::uint32_t>(face);
+        if (is_asked_[cell] != 0) faces_[next[cell]++] = static_cast<std::uint32_t>(face);
       });
     }
   }
@@ -127,7 +142,8 @@ class FaceGrid {
   Box bounds_;
   double cell_size_ = 1.0;
   std::array<int, 3> count_{1, 1, 1};
-  std::vector<std::uint32_t> first_;  ///< where each cell's faces begin in faces_
+  std::vector<std::uint8_t> is_asked_;  ///< of each cell
+  std::vector<std::uint32_t> first_;    ///< where each cell's faces begin in faces_
   std::vector<std::uint32_t> faces_;
 };
 
@@ -142,7 +158,7 @@ std::vector<std::uint8_t> covered_points(std::span<const Vec3> points, const Tri
   std::vector<std::uint8_t> covered(points.size(), 0);
   if (points.empty() || mesh.triangles.empty()) return covered;
 
-  const FaceGrid grid(mesh, distance);
+  const FaceGrid grid(mesh, points, distance);
   constexpr std::size_t kPointsPerBlock = 16'384;
   parallel_for(points.size(), kPointsPerBlock, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)

@@ -79,9 +79,8 @@ std::vector<std::uint8_t> supported_faces(std::span<const Vec3> points, const Tr
   constexpr std::size_t kFacesPerBlock = 4096;
   parallel_for(mesh.triangles.size(), kFacesPerBlock, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
-      cloud.for_each_near(centroid_of(mesh, mesh.triangles[f]), radius, [&](const Vec3& offset) {
-        if (glm::dot(offset, offset) < radius * radius) is_supported[f] = 1;
-      });
+      is_supported[f] =
+          cloud.has_point_within(centroid_of(mesh, mesh.triangles[f]), radius) ? 1 : 0;
     }
   });
   return is_supported;

@@ -160,12 +160,13 @@ TEST_CASE("components are numbered in order of their first face") {
   REQUIRE(components_of(CornerTable(mesh.triangles, mesh.positions.size())) == expected);
 
   TriangleMesh kept = mesh;
-  const DroppedComponents dropped = drop_small_components(kept, 13);
+  const DroppedComponents dropped = drop_small_components(kept, pieces_of(kept), 13);
   REQUIRE(dropped.components == 1);
   REQUIRE(dropped.faces == 12);
   REQUIRE(kept.triangles.size() == other.triangles.size());
   kept = mesh;
-  REQUIRE(drop_small_components(kept, 100000).components == 1);  // the largest one stays
+  REQUIRE(drop_small_components(kept, pieces_of(kept), 100000).components ==
+          1);  // the largest one stays
   REQUIRE(kept.triangles.size() == other.triangles.size());
 }
 
@@ -183,9 +184,9 @@ TEST_CASE(
   for (const Triangle& t : piece.triangles)
     mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
   TriangleMesh kept = mesh;
-  REQUIRE(drop_small_components(kept, 0).components == 0);
+  REQUIRE(drop_small_components(kept, pieces_of(kept), 0).components == 0);
   REQUIRE(kept == mesh);
-  REQUIRE(drop_small_components(kept, 5).components == (is_open ? 1U : 0U));
+  REQUIRE(drop_small_components(kept, pieces_of(kept), 5).components == (is_open ? 1U : 0U));
   REQUIRE(kept.triangles == (is_open ? large : mesh).triangles);
 }
 

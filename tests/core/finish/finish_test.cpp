@@ -268,9 +268,9 @@ TEST_CASE("two bodies side by side are not bridged where the cloud shows air bet
   }
   const Box region{Vec3(-8.0), Vec3(24.0)};
   TriangleMesh joined = mesh;
-  CHECK(bridge_loops(joined, PointGrid(points, region, 0.7), 1.0) == 1);
+  CHECK(bridge_loops(joined, pieces_of(joined), PointGrid(points, region, 0.7), 1.0) == 1);
   std::erase_if(points, [&](const Vec3& p) { return p.x > 6.0 && p.x < 6.0 + kGap; });
-  CHECK(bridge_loops(mesh, PointGrid(points, region, 0.7), 1.0) == 0);
+  CHECK(bridge_loops(mesh, pieces_of(mesh), PointGrid(points, region, 0.7), 1.0) == 0);
 }
 
 TEST_CASE("two walls that face each other two pixels apart are not bridged", "[finish]") {
@@ -292,7 +292,8 @@ TEST_CASE("two walls that face each other two pixels apart are not bridged", "[f
     points.push_back({testing::uniform(engine, -12.0, 12.0), testing::uniform(engine, -12.0, 12.0),
                       engine() % 2 == 0 ? 0.0 : kGap});
   }
-  CHECK(bridge_loops(mesh, PointGrid(points, Box{Vec3(-14.0), Vec3(14.0)}, 0.7), 1.0) == 0);
+  CHECK(bridge_loops(mesh, pieces_of(mesh), PointGrid(points, Box{Vec3(-14.0), Vec3(14.0)}, 0.7),
+                     1.0) == 0);
 }
 
 TEST_CASE("loops of one component are never joined to a handle") {
@@ -302,7 +303,7 @@ TEST_CASE("loops of one component are never joined to a handle") {
   for (Vec3& p : mesh.positions)
     p.z *= 0.03;
   testing::cut_where(mesh, [](const Vec3& p) { return std::hypot(p.x, p.y) < 0.3; });
-  REQUIRE(bridge_loops(mesh, PointGrid({}, Box{}, 1.0), 2.0 / kN) == 0);
+  REQUIRE(bridge_loops(mesh, pieces_of(mesh), PointGrid({}, Box{}, 1.0), 2.0 / kN) == 0);
   const FinishResult result = finish(mesh, {}, options_for(kN, FinishMethod::fast));
   REQUIRE(report_mesh(result.mesh).euler == 2);
 }

@@ -74,7 +74,8 @@ TEST_CASE("a ring-shaped gap in a tube is closed by a strip, which makes the han
   CAPTURE(gap, seed);
   TriangleMesh mesh = cut_torus(gap);
   REQUIRE(report_mesh(mesh).boundary_loops == 2);
-  REQUIRE(join_loops(mesh, grid_of(torus_points(seed, false, gap)), kSide).pairs == 1);
+  REQUIRE(join_loops(mesh, pieces_of(mesh), grid_of(torus_points(seed, false, gap)), kSide).pairs ==
+          1);
   const MeshReport report = report_mesh(mesh);
   REQUIRE(report.is_manifold());
   REQUIRE(report.boundary_edges == 0);
@@ -91,7 +92,8 @@ TEST_CASE("a strip that something crosses is not made, and its loops are named")
                                 across == 0.0 ? 0.1 : 0.0);
   mesh.triangles.push_back({first, first + 1, first + 2});
   const TriangleMesh before = mesh;
-  const JoinedLoops joined = join_loops(mesh, grid_of(torus_points(6, false, gap)), kSide);
+  const JoinedLoops joined =
+      join_loops(mesh, pieces_of(mesh), grid_of(torus_points(6, false, gap)), kSide);
   REQUIRE(joined.pairs == 0);
   REQUIRE(mesh == before);
   const auto hindered = std::count(joined.is_hindered.begin(), joined.is_hindered.end(), 1);
@@ -103,7 +105,7 @@ TEST_CASE("a gap with points of the cloud on neither side of its middle stays") 
   const double gap = 2.8 * kSide;
   TriangleMesh mesh = cut_torus(gap);
   const TriangleMesh before = mesh;
-  REQUIRE(join_loops(mesh, grid_of(torus_points(4, true, gap)), kSide).pairs == 0);
+  REQUIRE(join_loops(mesh, pieces_of(mesh), grid_of(torus_points(4, true, gap)), kSide).pairs == 0);
   REQUIRE(mesh == before);
 }
 
@@ -119,7 +121,7 @@ TEST_CASE("holes beside each other in one sheet are not joined, whatever points 
   remove_unused_vertices(mesh);
   REQUIRE(report_mesh(mesh).boundary_loops == 2);
   const TriangleMesh before = mesh;
-  REQUIRE(join_loops(mesh, grid_of(cloud), kSide).pairs == 0);
+  REQUIRE(join_loops(mesh, pieces_of(mesh), grid_of(cloud), kSide).pairs == 0);
   REQUIRE(mesh == before);
 }
 
@@ -130,7 +132,7 @@ TEST_CASE("holes opposite to each other in a thin plate are not joined through i
     p.z *= 0.03;
   testing::cut_where(mesh, [](const Vec3& p) { return std::hypot(p.x, p.y) < 0.3; });
   const TriangleMesh before = mesh;
-  REQUIRE(join_loops(mesh, PointGrid({}, Box{}, 1.0), 2.0 / kN).pairs == 0);
+  REQUIRE(join_loops(mesh, pieces_of(mesh), PointGrid({}, Box{}, 1.0), 2.0 / kN).pairs == 0);
   REQUIRE(mesh == before);
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 using testing::uniform;
 
-TEST_CASE("for_each_near visits exactly the points around, and more") {
+TEST_CASE("for_each_near visits the points around, and has_point_within tells whether any is") {
   std::mt19937_64 engine(6);
   std::vector<Vec3> points;
   for (int i = 0; i < 2000; ++i) {
@@ -32,6 +32,7 @@ TEST_CASE("for_each_near visits exactly the points around, and more") {
     grid.for_each_near(place, kRadius,
                        [&](const Vec3& d) { found += glm::length(d) < kRadius ? 1 : 0; });
     REQUIRE(found == expected);  // positions are floats: none of these lies that close to the limit
+    REQUIRE(grid.has_point_within(place, kRadius) == (expected > 0));
   }
 }
 
