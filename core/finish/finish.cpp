@@ -207,6 +207,15 @@ std::vector<std::uint32_t> fit_cleanly(TriangleMesh& mesh, std::vector<Vec3> poi
   return faces_of_pairs(untangled.left);
 }
 
+/// The faces to the points, if these have hardly any noise. Last, so that nothing undoes it.
+void fit_to_points(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
+                   FinishReport& report, const Progress& progress) {
+  if (!are_points_exact(report.noise, options.pixel_size, options)) return;
+  const auto left = fit_cleanly(mesh, cloud.points(kMostPoints * mesh.triangles.size()),
+                                {.reach = options.pixel_size}, report, progress);
+  separate(mesh, left, cloud, options, report, progress);
+}
+
 /// As few triangles as are asked for, where they are nearest to the cloud.
 void coarsen_to_cloud(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
                       FinishReport& report, const Progress& progress) {
@@ -293,16 +302,12 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
             options, report, progress);
   }
   mend_slivers(mesh, cloud, options, report, progress);
-  if (!is_coarsened && are_points_exact(fit.noise, h, options)) {
-    const auto left = fit_cleanly(mesh, cloud.points(kMostPoints * mesh.triangles.size()),
-                                  {.reach = h}, report, progress);
-    separate(mesh, left, cloud, options, report, progress);
-  }
   extend(mesh, cloud, options, report, progress);
   if (is_coarsened) {
     coarsen_to_cloud(mesh, cloud, options, report, progress);
   } else {
     if (relax_border(mesh, surface, fit)) extend(mesh, cloud, options, report, progress);
+    fit_to_points(mesh, cloud, options, report, progress);
     report.small_angles = mend_small_angles(mesh, cloud, h).left;
   }
 }

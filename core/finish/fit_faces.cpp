@@ -34,7 +34,7 @@ constexpr double kPlaneHold = 0.1;
 constexpr std::size_t kFewPoints = 4;
 constexpr double kFlat = 0.985;
 constexpr double kSmooth = 0.87;     // 30 degrees, from the normal of a vertex to its faces
-constexpr double kMoreHold = 1.35;   // in the next round, if angles are too small
+constexpr double kMoreHold = 1.65;   // in the next round, if angles are too small
 constexpr double kRelaxStep = 0.55;  // towards the middle of the faces, that is held on to
 constexpr std::size_t kPerBlock = 1024;
 
