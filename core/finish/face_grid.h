@@ -10,8 +10,8 @@
 
 namespace rangezip {
 
-/// The faces near the border of an open mesh, sorted into the cubes of a uniform grid, for asking
-/// whether another part of the mesh is nearer to a place than the border is.
+/// The faces of a mesh, all or those near its border, sorted into the cubes of a uniform grid, for
+/// asking which is nearest to a place, or whether one is nearer than the border.
 class FaceGrid {
  public:
   /// Cost: linear in the faces of the mesh.
@@ -22,7 +22,8 @@ class FaceGrid {
   /// All faces, in cubes of about the given side.
   FaceGrid(const TriangleMesh& mesh, double cell);
 
-  /// The face nearest to the place, of those nearer than `distance`; CornerTable::kNone if none is.
+  /// The face nearest to the place, of those no farther than `distance`; CornerTable::kNone if none
+  /// is.
   [[nodiscard]] std::uint32_t nearest_face(const Vec3& place, double distance) const;
 
   /// Whether a face comes nearer to the place than `distance`, at most the reach.

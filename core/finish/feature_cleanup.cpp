@@ -29,12 +29,14 @@ constexpr double kFoldedCosine = 0.8;         // of a face back over the one bey
 class Cleaner {
  public:
   Cleaner(CornerTable& table, const std::vector<Vec3>& positions,
-          const std::vector<std::uint8_t>& is_feature, double pixel_size, const ShareField& sizes)
+          const std::vector<std::uint8_t>& is_feature, double pixel_size, const ShareField& sizes,
+          const std::vector<std::uint8_t>& is_kept)
       : table_(table),
         positions_(positions),
         is_feature_(is_feature),
         h_(pixel_size),
-        sizes_(sizes) {}
+        sizes_(sizes),
+        is_kept_(is_kept) {}
 
   FeatureCleanupReport run() {
     for (int i = 0; i < kRounds; ++i) {
@@ -57,10 +59,16 @@ class Cleaner {
 
  private:
   [[nodiscard]] const Vec3& at(std::uint32_t vertex) const { return positions_[vertex]; }
+  [[nodiscard]] bool is_kept(std::uint32_t v) const {
+    return v < is_kept_.size() && is_kept_[v] != 0;
+  }
+  [[nodiscard]] bool may_change(std::uint32_t c) const {
+    return !is_kept(table_.vertex(c)) && !is_kept(table_.head(c));
+  }
   /// A feature vertex may only move along the feature, and a corner nowhere.
   [[nodiscard]] bool may_collapse(std::uint32_t c) const {
     const bool leaves = is_feature_[table_.vertex(c)] > is_feature_[table_.head(c)];
-    return !leaves && table_.is_collapse_ok(c);
+    return !leaves && may_change(c) && table_.is_collapse_ok(c);
   }
 
   void collapse_short_edges() {
@@ -96,7 +104,7 @@ class Cleaner {
 
   void join_features() {
     for (std::uint32_t c = 0; c < table_.corner_count(); ++c) {
-      if (!table_.names_inner_edge(c)) continue;
+      if (!table_.names_inner_edge(c) || !may_change(c)) continue;
       const Diamond d(table_, c);
       if (is_feature_[d.x] == 0 || is_feature_[d.y] == 0) continue;
       if (is_feature_[d.a] != 0 && is_feature_[d.b] != 0) continue;
@@ -189,7 +197,7 @@ class Cleaner {
 
   /// Of both new faces; -1 if the edge is none to turn: they must look as the face beyond it does.
   [[nodiscard]] double angle_after_turning(std::uint32_t c) const {
-    if (table_.across(c) == CornerTable::kNone) return -1.0;
+    if (table_.across(c) == CornerTable::kNone || !may_change(c)) return -1.0;
     const Diamond d(table_, c);
     const DiamondAreas areas(positions_, d);
     const bool keeps_direction = has_cosine(areas.new_a, areas.old_y, max_turn_) &&
@@ -202,6 +210,7 @@ class Cleaner {
   const std::vector<std::uint8_t>& is_feature_;
   double h_;
   const ShareField& sizes_;
+  const std::vector<std::uint8_t>& is_kept_;
   double max_turn_ = kSliverTurns.front();  ///< cosine, of faces when slivers are removed
   FeatureCleanupReport report_;
 };
@@ -210,13 +219,14 @@ class Cleaner {
 
 FeatureCleanupReport clean_features(CornerTable& table, const std::vector<Vec3>& positions,
                                     const std::vector<std::uint8_t>& is_feature, double pixel_size,
-                                    const ShareField& sizes) {
-  return Cleaner(table, positions, is_feature, pixel_size, sizes).run();
+                                    const ShareField& sizes,
+                                    const std::vector<std::uint8_t>& is_kept) {
+  return Cleaner(table, positions, is_feature, pixel_size, sizes, is_kept).run();
 }
 
 FeatureCleanupReport remove_slivers(CornerTable& table, const std::vector<Vec3>& positions) {
   const std::vector<std::uint8_t> is_feature(positions.size(), 0);
-  return Cleaner(table, positions, is_feature, 0.0, {}).remove_all_slivers();
+  return Cleaner(table, positions, is_feature, 0.0, {}, {}).remove_all_slivers();
 }
 
 }  // namespace rangezip

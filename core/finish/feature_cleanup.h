@@ -22,9 +22,11 @@ struct FeatureCleanupReport {
 /// them.
 /// @param is_feature per vertex: 1 for those on a feature, 2 at a corner of it
 /// @param sizes of triangles, in h: where they are smaller, half of that counts
+/// @param is_kept vertices whose edges stay; those past its end are not
 FeatureCleanupReport clean_features(CornerTable& table, const std::vector<Vec3>& positions,
                                     const std::vector<std::uint8_t>& is_feature, double pixel_size,
-                                    const ShareField& sizes);
+                                    const ShareField& sizes,
+                                    const std::vector<std::uint8_t>& is_kept);
 
 /// Removes triangles with an angle under 11 degrees by the collapse or flip that leaves the best
 /// angles, where no valid face turns by more than 60 degrees but those of a fin.

@@ -207,7 +207,7 @@ std::vector<std::uint32_t> fit_cleanly(TriangleMesh& mesh, std::vector<Vec3> poi
   return faces_of_pairs(untangled.left);
 }
 
-/// The faces to the points, if these have hardly any noise. Last, so that nothing undoes it.
+/// The faces to the points, if these have hardly any noise. After all that would undo it.
 void fit_to_points(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
                    FinishReport& report, const Progress& progress) {
   if (!are_points_exact(report.noise, options.pixel_size, options)) return;
@@ -326,7 +326,7 @@ FinishResult finish(TriangleMesh mesh, std::span<const Vec3> cloud, const Finish
   result.report.turned_pieces = orient_pieces(mesh, h);
   close(mesh, cloud, points, options, result.report, progress);
   remove_thin_handles(mesh, points, options, result.report, progress);
-  if (options.method == FinishMethod::full) {
+  if (options.method == FinishMethod::full && !mesh.empty()) {
     if (options.gap == 0.0) tell_sides(points, mesh, h);  // contours are too far apart for that
     improve(mesh, points, options, result.report, progress);
   }

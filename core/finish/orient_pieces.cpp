@@ -10,9 +10,11 @@
 #include <vector>
 
 #include "core/finish/boundary_loops.h"
+#include "core/finish/clean_topology.h"
 #include "core/finish/components.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/loop_neighbors.h"
+#include "core/finish/vertex_geometry.h"
 
 namespace rangezip {
 namespace {
@@ -21,6 +23,9 @@ namespace {
 constexpr double kMaxGap = 3.0;
 /// Cosines: of two faces that lie in one surface, or of the ways in which two boundaries end.
 constexpr double kAlike = 0.5;
+/// Between two faces: what hangs together by such edges only are two pieces. The one may be the
+/// inside of what the other is the outside of, where a seam has caught an edge of it.
+constexpr double kFold = -0.5;
 /// Edges on each side of a place of a boundary that tell its directions.
 constexpr std::size_t kBeside = 4;
 /// How far the way across may rise over the plane of a face: of its length, and in h.
@@ -57,12 +62,47 @@ struct Meeting {
   Votes votes;
 };
 
+/// A mesh of which no two pieces share a vertex, where folds part pieces.
+struct PartedMesh {
+  TriangleMesh mesh;                     ///< faces, and so corners, keep their places
+  std::vector<std::uint8_t> is_at_fold;  ///< of corners: whether their edge is a boundary by that
+};
+
+PartedMesh parted_at_folds(const TriangleMesh& mesh) {
+  const CornerTable table(mesh.triangles, mesh.positions.size());
+  const std::vector<std::uint32_t> piece = components_of(table, [&](std::uint32_t corner) {
+    return has_cosine(face_area_vector(table, mesh.positions, corner / 3),
+                      face_area_vector(table, mesh.positions, table.across(corner) / 3), kFold);
+  });
+  PartedMesh result{{mesh.positions, mesh.triangles, {}}, {}};
+  result.is_at_fold.assign(table.corner_count(), 0);
+  for (std::uint32_t c = 0; c < table.corner_count(); ++c) {
+    const std::uint32_t across = table.across(c);
+    if (across != CornerTable::kNone && piece[c / 3] != piece[across / 3]) result.is_at_fold[c] = 1;
+  }
+  TriangleMesh& parted = result.mesh;
+  std::vector<std::uint32_t> piece_of(mesh.positions.size(), CornerTable::kNone);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> copies;  // of a vertex, a piece
+  for (std::size_t f = 0; f < piece.size(); ++f) {
+    for (std::uint32_t& v : parted.triangles[f]) {
+      if (piece_of[v] == CornerTable::kNone) piece_of[v] = piece[f];
+      if (piece_of[v] == piece[f]) continue;
+      const auto next = static_cast<std::uint32_t>(parted.positions.size());
+      const auto [copy, is_new] = copies.try_emplace({v, piece[f]}, next);
+      if (is_new) parted.positions.push_back(mesh.positions[v]);
+      v = copy->second;
+    }
+  }
+  return result;
+}
+
 class Orienter {
  public:
-  Orienter(const TriangleMesh& mesh, double pixel_size)
-      : positions_(mesh.positions),
+  Orienter(const PartedMesh& parted, double pixel_size)
+      : positions_(parted.mesh.positions),
+        is_at_fold_(parted.is_at_fold),
         h_(pixel_size),
-        table_(mesh.triangles, mesh.positions.size()),
+        table_(parted.mesh.triangles, parted.mesh.positions.size()),
         loops_(boundary_loops(table_)),
         component_(components_of(table_)) {
     for (const std::uint32_t c : component_) {
@@ -115,9 +155,16 @@ class Orienter {
   }
   [[nodiscard]] std::vector<std::size_t> border_lengths() const {
     std::vector<std::size_t> lengths(sizes_.size(), 0);
-    for (std::uint32_t l = 0; l < loops_.size(); ++l)
-      lengths[component_at(l)] += loops_[l].corners.size();
+    for (std::uint32_t l = 0; l < loops_.size(); ++l) {
+      const auto& corners = loops_[l].corners;
+      lengths[component_at(l)] += static_cast<std::size_t>(std::count_if(
+          corners.begin(), corners.end(), [&](std::uint32_t c) { return is_at_fold_[c] == 0; }));
+    }
     return lengths;
+  }
+  /// At a fold the two sides always end the same way, or look as if they crossed.
+  [[nodiscard]] bool is_at_fold(std::uint32_t loop, std::uint32_t place) const {
+    return is_at_fold_[loops_[loop].corners[place]] != 0;
   }
 
   /// With the directions of some faces on both sides: a boundary has steps, as pixels have.
@@ -154,6 +201,7 @@ class Orienter {
     };
     for (const LoopNeighbors& n :
          loop_neighbors(loops_, table_, positions_, kMaxGap * h_, are_wanted)) {
+      if (is_at_fold(n.loop_a, n.place_a) || is_at_fold(n.loop_b, n.place_b)) continue;
       const Rim a = rim_at(n.loop_a, n.place_a), b = rim_at(n.loop_b, n.place_b);
       Votes& votes = pairs[std::minmax(component_at(n.loop_a), component_at(n.loop_b))];
       ++votes.all;
@@ -168,6 +216,7 @@ class Orienter {
   }
 
   const std::vector<Vec3>& positions_;
+  const std::vector<std::uint8_t>& is_at_fold_;
   double h_;
   CornerTable table_;
   std::vector<BoundaryLoop> loops_;
@@ -178,13 +227,16 @@ class Orienter {
 }  // namespace
 
 std::size_t orient_pieces(TriangleMesh& mesh, double pixel_size) {
-  const Orienter orienter(mesh, pixel_size);
+  const PartedMesh parted = parted_at_folds(mesh);
+  const Orienter orienter(parted, pixel_size);
   const std::vector<std::uint8_t> is_turned = orienter.turned();
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     if (is_turned[orienter.component_of(f)] != 0)
       std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
   }
-  return static_cast<std::size_t>(std::count(is_turned.begin(), is_turned.end(), 1));
+  const auto count = static_cast<std::size_t>(std::count(is_turned.begin(), is_turned.end(), 1));
+  if (count > 0) clean_topology(mesh);  // at the folds by which turned pieces hung
+  return count;
 }
 
 }  // namespace rangezip

@@ -9,7 +9,9 @@ namespace rangezip {
 /// Turns pieces of a mesh inside out that face the wrong way (own). Through an opening of an
 /// object, as the neck of a bust, scans see the inside of its surface, and what no scan sees from
 /// outside gets its faces from there: a piece that continues what is around it, but faces the other
-/// way, so that no seam, bridge or fill can join the two.
+/// way, so that no seam, bridge or fill can join the two. Pieces are what hangs together by edges
+/// over which faces turn by less than 120 degrees: now and then a seam catches an edge of the other
+/// side, where the surface seems to fold back.
 ///
 /// Where the boundaries of two components run within 3 h of each other, the faces at both show
 /// whether one surface continues the other: they end towards each other, and what lies between goes
@@ -20,7 +22,8 @@ namespace rangezip {
 /// walls of which each has a part only.
 /// O(faces), and what loop_neighbors() costs.
 /// @param pixel_size h, model units; positive
-/// @pre oriented and manifold. Positions stay, and which faces there are.
+/// @pre oriented and manifold; stays so. Positions stay, and faces but for a few at folds by which
+///     pieces hung that were turned.
 /// @return components turned
 std::size_t orient_pieces(TriangleMesh& mesh, double pixel_size);
 

@@ -28,7 +28,7 @@ constexpr double kMostNoise = 0.125;
 constexpr double kReach = 3.0;         ///< of rims that are short
 constexpr double kAround = 2.0;        ///< of such points: those that tell whether a move is good
 constexpr double kPart = 8.0;          ///< of such points: faces that may be met
-constexpr double kChanged = 8.0;       ///< of vertices that moved: points that may lead on
+constexpr double kChanged = 8.0;       ///< of vertices that were to move: points that may lead on
 constexpr double kHalf = 0.5;          ///< of the radius: cells of grids
 constexpr double kCrease = 0.5;        ///< 60 degrees
 constexpr std::size_t kMinPoints = 2;  ///< next to a vertex, to be reached
@@ -82,8 +82,13 @@ class Reacher {
         table_(mesh.triangles, mesh.positions.size()),
         is_hopeless_(mesh.positions.size(), 0) {}
 
-  /// @return how many vertices have moved
-  std::size_t round() {
+  /// Vertices of a round.
+  struct Moves {
+    std::size_t tried = 0;  ///< next to them others were not, and may be in the next round
+    std::size_t moved = 0;
+  };
+
+  Moves round() {
     const PointsOnFaces on(mesh_, points_, kReach * options_.pixel_size);
     const std::vector<Vec3> before = positions_;
     std::vector<std::uint8_t> is_busy(positions_.size(), 0);
@@ -98,6 +103,7 @@ class Reacher {
       moved.push_back(v);
       for_each_around(v, [&](std::uint32_t w) { is_busy[w] = 1; });
     }
+    const std::vector<std::uint32_t> tried = moved;
     take_back_crossing(before, moved);
     for (const std::uint32_t v : moved)
       for_each_around(v, [&](std::uint32_t w) { is_hopeless_[w] = 0; });
@@ -106,15 +112,15 @@ class Reacher {
     for (const std::uint32_t v : moved)
       turn_edges(v);
     mesh_.triangles = table_.triangles();
-    if (!moved.empty()) keep_points_near(moved);
-    return moved.size();
+    if (!tried.empty()) keep_points_near(tried);
+    return {.tried = tried.size(), .moved = moved.size()};
   }
 
  private:
-  /// Vertices that have not moved, and are far from those that have, are hopeless.
-  void keep_points_near(const std::vector<std::uint32_t>& moved) {
+  /// What is far from vertices that were to move is as hopeless as it was.
+  void keep_points_near(const std::vector<std::uint32_t>& tried) {
     std::vector<Vec3> places;
-    for (const std::uint32_t v : moved)
+    for (const std::uint32_t v : tried)
       places.push_back(at(v));
     const double radius = kChanged * options_.pixel_size;
     points_ = points_near(points_, grid_of(places, kHalf * radius), radius);
@@ -364,13 +370,14 @@ std::size_t reach_points(TriangleMesh& mesh, const PointGrid& cloud,
       points_near(points, grid_of(sharp, kHalf * kReach * h), kReach * h), mesh, too_short);
   if (missed.size() < kMinPoints) return 0;
   FacePart part = part_near(mesh, grid_of(missed, kHalf * kPart * h), kPart * h);
+  if (part.mesh.empty()) return 0;
   Reacher reacher(part.mesh, points_near(points, grid_of(missed, kHalf * kAround * h), kAround * h),
                   cloud, too_short, options);
   std::size_t moves = 0;
   for (int round = 0; round < kRounds; ++round) {
     progress.check_stop();
-    const std::size_t moved = reacher.round();
-    if (moved == 0) break;
+    const auto [tried, moved] = reacher.round();
+    if (tried == 0) break;
     moves += moved;
   }
   if (moves > 0) put_back(std::move(part), mesh);

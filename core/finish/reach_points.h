@@ -18,13 +18,15 @@ struct ReachPointsOptions {
 /// no scan sees both sides, and what closes the mesh there cuts the rim off. Where points lie off
 /// the mesh near a crease of 60 degrees or more, by 0.25 h or more and three times the noise, the
 /// vertex next to them moves to the farthest of them, or half of the way, if the points around are
-/// then nearer to the faces (by a tenth of the sum of squares), no face around gets sharper than
-/// before or folds over, and no more of them lies in the air. What would cross is taken back. Edges
-/// that got long are split, and edges turned within a side for better angles; so the next round
-/// gets farther. Clouds with noise of over h / 8 are left alone. The topology and the boundary
-/// stay. Cost: what is near creases is looked at once, and what changes again in up to ten rounds.
+/// then nearer to the faces (by a tenth of the sum of squares), the smallest angle around does not
+/// fall if it is under 11 degrees, no face folds over, and no more centroids and middles of sides
+/// lie in the air. Moves by which faces cross are taken back. Edges that got long are split, and
+/// edges turned within a side for better angles, now and then so that faces cross
+/// (core/finish/separate.h); so the next round gets farther. Clouds with noise of over h / 8 are
+/// left alone. The topology and the boundary stay. Cost: in up to ten rounds the points within 2 h
+/// of those to be reached, fewer with each, and the faces within 8 h.
 /// @return moves that were made
-/// @pre oriented, manifold (core/finish/clean_topology.h); nothing crosses, and nothing will
+/// @pre oriented, manifold (core/finish/clean_topology.h); nothing crosses
 std::size_t reach_points(TriangleMesh& mesh, const PointGrid& cloud,
                          const ReachPointsOptions& options, const Progress& progress = {});
 

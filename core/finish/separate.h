@@ -20,7 +20,7 @@ namespace rangezip {
 /// and cuts out and closes again what still does (core/finish/repair.h). Adds to the counts of
 /// `report`.
 /// @param changed faces; all others are known not to cross each other
-/// @return whether something was cut
+/// @return whether something was cut: then vertices have new numbers
 bool separate(TriangleMesh& mesh, std::span<const std::uint32_t> changed, const PointGrid& cloud,
               const FinishOptions& options, FinishReport& report, const Progress& progress);
 

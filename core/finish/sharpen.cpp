@@ -24,7 +24,7 @@ constexpr int kRoundsAround = 4;  ///< of snapping again, without what crosses
 constexpr int kRingsToMove = 3;
 constexpr int kRingsToLook = 8;
 
-/// What it did to triangles; those on features are counted otherwise.
+/// What it did to triangles.
 void add_changes(const SnapReport& snapped, FinishReport& report) {
   report.split_edges += snapped.split_edges;
   report.collapsed_edges += snapped.collapsed_edges;
@@ -99,8 +99,7 @@ void sharpen(TriangleMesh& mesh, const PointGrid& cloud, const SnapOptions& snap
     report.rim_moves += moves;
     separate(mesh, find_face_changes(before, mesh).made, cloud, options, report, progress);
     if (round + 1 == kReachRounds) return;
-    const std::vector<std::uint32_t> came = find_face_changes(before, mesh).made;
-    snap_around(mesh, came, cloud, snapping, report, progress);
+    snap_around(mesh, find_new_faces(before, mesh), cloud, snapping, report, progress);
   }
 }
 

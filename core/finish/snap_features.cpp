@@ -62,8 +62,9 @@ class Snapper {
     }
     for (int round = 0; round < kTidyRounds; ++round) {
       if (round > 0) report.split_edges += split_crossing_edges(mesh_, cloud_);
-      const FeatureCleanupReport cleaned = clean_features(
-          mesh_.table, mesh_.positions, mesh_.is_feature, pixel_of_edges(), options_.sizes);
+      const FeatureCleanupReport cleaned =
+          clean_features(mesh_.table, mesh_.positions, mesh_.is_feature, pixel_of_edges(),
+                         options_.sizes, options_.is_kept);
       report.collapsed_edges += cleaned.collapsed_edges;
       report.flipped_edges += cleaned.flipped_edges;
       take_back_lone();
@@ -71,7 +72,7 @@ class Snapper {
       relax_features(
           mesh_.table, mesh_.positions, mesh_.is_feature,
           {.place_on = [&](std::uint32_t v, const Vec3& target) { return place_on(v, target); },
-           .may_change = [](std::uint32_t) { return true; },
+           .may_change = [&](std::uint32_t v) { return !is_kept(v); },
            .may_face = [&](std::uint32_t v, const Vec3& d) { return may_face(v, d); }});
     }
     return report;
@@ -223,6 +224,7 @@ class Snapper {
 
   /// See VertexSides.
   [[nodiscard]] std::optional<Vec3> place_on(std::uint32_t v, const Vec3& target) const {
+    if (is_kept(v)) return std::nullopt;
     std::vector<FeatureSide> sides;
     for (const FeatureSide& side : mesh_.features[v].sides)
       sides.push_back({side.height.seen_from(target - mesh_.features[v].origin), side.weight});

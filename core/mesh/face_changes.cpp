@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <tuple>
 #include <vector>
 
+#include "core/base/error.h"
 #include "core/mesh/edge_map.h"
 
 namespace rangezip {
@@ -16,6 +19,27 @@ Triangle from_lowest(const Triangle& face) {
   Triangle result = face;
   std::rotate(result.begin(), std::min_element(result.begin(), result.end()), result.end());
   return result;
+}
+
+bool is_before(const Vec3& a, const Vec3& b) {
+  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+/// The vertices that faces have, sorted by their places.
+std::vector<std::uint32_t> vertices_by_place(const TriangleMesh& mesh) {
+  std::vector<std::uint8_t> is_used(mesh.positions.size(), 0);
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t)
+      is_used[v] = 1;
+  }
+  std::vector<std::uint32_t> vertices;
+  for (std::uint32_t v = 0; v < is_used.size(); ++v) {
+    if (is_used[v] != 0) vertices.push_back(v);
+  }
+  std::stable_sort(vertices.begin(), vertices.end(), [&](std::uint32_t v, std::uint32_t w) {
+    return is_before(mesh.positions[v], mesh.positions[w]);
+  });
+  return vertices;
 }
 
 /// Finds for faces after a change the same ones before it.
@@ -97,10 +121,37 @@ class Matcher {
 }  // namespace
 
 FaceChanges find_face_changes(const TriangleMesh& before, const TriangleMesh& after) {
+  if (after.positions.size() < before.positions.size()) {
+    throw InvalidArgument("find_face_changes: of " + std::to_string(before.positions.size()) +
+                          " vertices only " + std::to_string(after.positions.size()) + " are left");
+  }
   Matcher matcher(before, after);
   matcher.match_in_order();
   matcher.match_by_edges();
   return matcher.changes();
+}
+
+std::vector<std::uint32_t> find_new_faces(const TriangleMesh& before, const TriangleMesh& after) {
+  const std::vector<std::uint32_t> known = vertices_by_place(before);
+  TriangleMesh renumbered{before.positions, after.triangles, {}};
+  std::vector<std::uint32_t> number_of(after.positions.size());
+  for (std::uint32_t v = 0; v < number_of.size(); ++v) {
+    const Vec3& place = after.positions[v];
+    const auto found = std::lower_bound(
+        known.begin(), known.end(), place,
+        [&](std::uint32_t k, const Vec3& p) { return is_before(before.positions[k], p); });
+    if (found != known.end() && before.positions[*found] == place) {
+      number_of[v] = *found;
+    } else {
+      number_of[v] = static_cast<std::uint32_t>(renumbered.positions.size());
+      renumbered.positions.push_back(place);
+    }
+  }
+  for (Triangle& t : renumbered.triangles) {
+    for (std::uint32_t& v : t)
+      v = number_of[v];
+  }
+  return find_face_changes(before, renumbered).made;
 }
 
 }  // namespace rangezip

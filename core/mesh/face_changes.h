@@ -15,8 +15,15 @@ struct FaceChanges {
 
 /// Compares two meshes whose vertices have the same numbers, those after being more. A face is the
 /// same if it has the same corners, at the same places, in the same direction. O(faces).
+/// @throws InvalidArgument if there are fewer vertices after
 /// @pre both are oriented: no directed edge in two faces
 [[nodiscard]] FaceChanges find_face_changes(const TriangleMesh& before, const TriangleMesh& after);
+
+/// The faces of a mesh after that were not in it before, where vertices may have new numbers: they
+/// are told by their places. O(faces + vertices log vertices).
+/// @pre both are oriented: no directed edge in two faces
+[[nodiscard]] std::vector<std::uint32_t> find_new_faces(const TriangleMesh& before,
+                                                        const TriangleMesh& after);
 
 /// What find_face_changes() compares with, for keeping it while the mesh changes.
 [[nodiscard]] inline TriangleMesh geometry_of(const TriangleMesh& mesh) {

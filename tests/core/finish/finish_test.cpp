@@ -72,6 +72,17 @@ void require_clean(const TriangleMesh& mesh) {
   REQUIRE(self_intersections(mesh).empty());
 }
 
+TEST_CASE("of a mesh all of whose faces cross nothing is left") {
+  const auto method = GENERATE(FinishMethod::fast, FinishMethod::full);
+  TriangleMesh mesh;
+  mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0.1, 0, 1}, {0, 0.5, 1}};
+  mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  REQUIRE_FALSE(self_intersections(mesh).empty());
+  const FinishResult result =
+      finish(mesh, mesh.positions, {.method = method, .pixel_size = 0.1, .min_component = 0});
+  REQUIRE(result.mesh.empty());
+}
+
 TEST_CASE("a torn and crumpled sphere becomes closed and free of self-intersections") {
   const std::uint64_t seed = GENERATE(1U, 2U, 3U, 4U, 5U);
   CAPTURE(seed);

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
+#include "core/finish/corner_table.h"
 #include "core/mesh/mesh_report.h"
 #include "tests/core/finish/shapes.h"
 
@@ -30,6 +32,34 @@ TriangleMesh turned_between(TriangleMesh mesh, double low, double high) {
     if (z > low && z < high) std::swap(t[1], t[2]);
   }
   return mesh;
+}
+
+/// Half-edges of faces at the boundary between two heights that have none on the other side.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> rim_between(const TriangleMesh& mesh,
+                                                                 double low, double high) {
+  const CornerTable table(mesh.triangles, mesh.positions.size());
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> rim;
+  for (std::uint32_t c = 0; c < table.corner_count(); ++c) {
+    const double z = mesh.positions[table.vertex(c)].z;
+    if (table.across(c) == CornerTable::kNone && z > low && z < high)
+      rim.emplace_back(table.vertex(c), table.head(c));
+  }
+  return rim;
+}
+
+/// Joins what is below a cut to a turned piece above it by two faces that fold back, as a seam may.
+void join_by_fold(TriangleMesh& mesh, double height) {
+  const auto [p, q] = rim_between(mesh, height, height + 2.0 * kSide).front();
+  std::pair<std::uint32_t, std::uint32_t> below;
+  double least = 10.0;
+  for (const auto& edge : rim_between(mesh, height - 2.0 * kSide, height)) {
+    const double distance = glm::distance(mesh.positions[edge.first], mesh.positions[p]);
+    if (distance >= least) continue;
+    least = distance;
+    below = edge;
+  }
+  mesh.triangles.push_back({q, p, below.first});
+  mesh.triangles.push_back({below.second, below.first, p});
 }
 
 /// A square sheet of n x n cells in the plane z = `level`, from x = `left` on, that looks up.
@@ -65,6 +95,16 @@ TEST_CASE("pieces that continue a surface come to face as its largest one does")
   TriangleMesh mesh = turned_between(right, low, high);
   REQUIRE(orient_pieces(mesh, kSide) == count);
   REQUIRE(mesh == right);
+}
+
+TEST_CASE("a piece that hangs by a fold only is one of its own") {
+  const TriangleMesh right = cut_sphere();
+  TriangleMesh mesh = turned_between(right, 0.6, 2.0);
+  join_by_fold(mesh, 0.6);
+  REQUIRE(report_mesh(mesh).components == 2);
+  REQUIRE(report_mesh(mesh).misoriented_edges == 0);
+  REQUIRE(orient_pieces(mesh, kSide) == 1);
+  REQUIRE(mesh == right);  // of the fold nothing can stay
 }
 
 TEST_CASE("where the largest piece faces inwards, so do all") {

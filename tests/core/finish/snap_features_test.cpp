@@ -97,6 +97,34 @@ TEST_CASE("snap_features restores the edges and corners of a cube") {
   }
 }
 
+TEST_CASE("vertices that are to stay do, and the edges between them") {
+  const PointGrid cloud(cube_points(0.0, 0.0, 1), kRegion, 0.7 * kH);
+  const TriangleMesh before = scanned_cube(0.0);
+  TriangleMesh mesh = before;
+  SnapOptions options = options_for(mesh, cloud);
+  const double kept_below = GENERATE(0.0, 5.0);  // half of the cube, and all of it
+  CAPTURE(kept_below);
+  const auto stays = [&](const Vec3& p) { return turned_back(p).z < kept_below; };
+  for (const Vec3& p : before.positions)
+    options.is_kept.push_back(stays(p) ? 1 : 0);
+  const SnapReport report = snap_features(mesh, cloud, options);
+  REQUIRE((report.snapped_vertices == 0) == (kept_below > 1.0));
+  for (std::size_t v = 0; v < before.positions.size(); ++v) {
+    if (options.is_kept[v] != 0) REQUIRE(mesh.positions[v] == before.positions[v]);
+  }
+  const auto kept_faces = [&](const TriangleMesh& of) {
+    std::vector<Triangle> faces;
+    for (const Triangle& t : of.triangles) {
+      if (std::all_of(t.begin(), t.end(), [&](std::uint32_t v) {
+            return v < options.is_kept.size() && options.is_kept[v] != 0;
+          }))
+        faces.push_back(t);
+    }
+    return faces;
+  };
+  REQUIRE(kept_faces(mesh) == kept_faces(before));
+}
+
 TEST_CASE("a little noise does not keep edges from being found") {
   const PointGrid cloud(cube_points(0.0, 0.05 * kH, 2), kRegion, 0.7 * kH);
   TriangleMesh mesh = scanned_cube(0.0);
