@@ -132,10 +132,9 @@ std::size_t clean_topology(TriangleMesh& mesh) {
   return before - mesh.triangles.size();
 }
 
-DroppedComponents drop_small_components(TriangleMesh& mesh, const MeshPieces& pieces,
+DroppedComponents drop_small_components(TriangleMesh& mesh, const CornerTable& table,
+                                        const std::vector<std::uint32_t>& component,
                                         std::size_t min_faces) {
-  const CornerTable& table = pieces.table;
-  const std::vector<std::uint32_t>& component = pieces.component;
   std::vector<std::size_t> sizes;
   std::vector<std::uint8_t> is_open;
   for (std::uint32_t c = 0; c < table.corner_count(); ++c) {

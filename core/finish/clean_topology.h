@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
-#include "core/finish/mesh_pieces.h"
+#include "core/finish/corner_table.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace rangezip {
@@ -22,8 +24,10 @@ struct DroppedComponents {
 /// open ones with less than a two-hundredth of the faces of the largest component, which are
 /// pieces of walls in pockets that no view connects. The largest one (the earliest of equals)
 /// always stays. With 0 all stay. Positions stay.
-/// @param pieces of the mesh, as it is before
-DroppedComponents drop_small_components(TriangleMesh& mesh, const MeshPieces& pieces,
+/// @param table of the mesh, as it is before
+/// @param component of each face: components_of(table)
+DroppedComponents drop_small_components(TriangleMesh& mesh, const CornerTable& table,
+                                        const std::vector<std::uint32_t>& component,
                                         std::size_t min_faces);
 
 }  // namespace rangezip

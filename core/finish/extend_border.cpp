@@ -12,6 +12,7 @@
 
 #include "core/finish/border_gaps.h"
 #include "core/finish/border_step.h"
+#include "core/finish/components.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/face_grid.h"
 #include "core/mesh/self_intersection.h"
@@ -255,8 +256,9 @@ class Extender {
     }
     remove_triangles(mesh_.triangles, goes);
     clean_topology(mesh_);
+    const CornerTable table(mesh_.triangles, mesh_.positions.size());
     const DroppedComponents dropped =
-        drop_small_components(mesh_, pieces_of(mesh_), min_component_);
+        drop_small_components(mesh_, table, components_of(table), min_component_);
     sum.components += dropped.components;
     sum.faces += dropped.faces;
   }

@@ -13,6 +13,16 @@ std::vector<Vec3> points_near(std::span<const Vec3> points, const PointGrid& pla
   return near;
 }
 
+std::vector<Vec3> points_near(const PointGrid& cloud, const PointGrid& places, double radius) {
+  const auto flags = flags_of(
+      cloud.size(), [&](std::size_t i) { return places.has_point_within(cloud.point(i), radius); });
+  std::vector<Vec3> near;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (flags[i] != 0) near.push_back(cloud.point(i));
+  }
+  return near;
+}
+
 FacePart part_near(const TriangleMesh& mesh, const PointGrid& places, double radius) {
   return face_part(mesh, flags_of(mesh.triangles.size(), [&](std::size_t f) {
                      return places.has_point_within(mesh.positions[mesh.triangles[f][0]], radius);

@@ -28,6 +28,10 @@ template <class IsIn>
 [[nodiscard]] std::vector<Vec3> points_near(std::span<const Vec3> points, const PointGrid& places,
                                             double radius);
 
+/// The same of the points of a cloud, in the order of its cells.
+[[nodiscard]] std::vector<Vec3> points_near(const PointGrid& cloud, const PointGrid& places,
+                                            double radius);
+
 /// The faces whose first corner lies within `radius` of one of the places.
 [[nodiscard]] FacePart part_near(const TriangleMesh& mesh, const PointGrid& places, double radius);
 

@@ -24,6 +24,9 @@ class PointGrid {
 
   [[nodiscard]] std::size_t size() const noexcept { return positions_.size(); }
 
+  /// One of the points, in the order of cells. @pre index < size()
+  [[nodiscard]] Vec3 point(std::size_t index) const { return origin_ + Vec3(positions_[index]); }
+
   /// The points, or `most` of them at most, spread evenly over the grid.
   [[nodiscard]] std::vector<Vec3> points(std::size_t most) const;
 

@@ -364,14 +364,13 @@ std::size_t reach_points(TriangleMesh& mesh, const PointGrid& cloud,
   if (cloud.empty() || mesh.empty() || options.noise > kMostNoise * h) return 0;
   const std::vector<Vec3> sharp = sharp_vertices(mesh);
   if (sharp.empty()) return 0;
-  const std::vector<Vec3> points = cloud.points(cloud.size());
   const double too_short = std::max(kShort * h, kShortPerNoise * options.noise);
   const std::vector<Vec3> missed = points_off(
-      points_near(points, grid_of(sharp, kHalf * kReach * h), kReach * h), mesh, too_short);
+      points_near(cloud, grid_of(sharp, kHalf * kReach * h), kReach * h), mesh, too_short);
   if (missed.size() < kMinPoints) return 0;
   FacePart part = part_near(mesh, grid_of(missed, kHalf * kPart * h), kPart * h);
   if (part.mesh.empty()) return 0;
-  Reacher reacher(part.mesh, points_near(points, grid_of(missed, kHalf * kAround * h), kAround * h),
+  Reacher reacher(part.mesh, points_near(cloud, grid_of(missed, kHalf * kAround * h), kAround * h),
                   cloud, too_short, options);
   std::size_t moves = 0;
   for (int round = 0; round < kRounds; ++round) {

@@ -52,7 +52,8 @@ void cut_pairs(TriangleMesh& mesh, const Pairs& pairs, FinishReport& report) {
 
 void drop_small(TriangleMesh& mesh, MeshPieces& pieces, const FinishOptions& options,
                 FinishReport& report) {
-  const DroppedComponents dropped = drop_small_components(mesh, pieces, options.min_component);
+  const DroppedComponents dropped =
+      drop_small_components(mesh, pieces.table, pieces.component, options.min_component);
   if (dropped.faces > 0) pieces = pieces_of(mesh);
   report.dropped_components += dropped.components;
   report.dropped_faces += dropped.faces;

@@ -39,6 +39,11 @@ TriangleMesh mesh_of(const CornerTable& table) {
   return {std::vector<Vec3>(table.vertex_count(), Vec3{0.0}), table.triangles(), {}};
 }
 
+DroppedComponents drop_small(TriangleMesh& mesh, std::size_t min_faces) {
+  const CornerTable table(mesh.triangles, mesh.positions.size());
+  return drop_small_components(mesh, table, components_of(table), min_faces);
+}
+
 TEST_CASE("random flips, collapses and splits keep the surface manifold and its topology") {
   const std::uint64_t seed = GENERATE(1U, 2U, 3U);
   const bool open = GENERATE(false, true);
@@ -160,13 +165,12 @@ TEST_CASE("components are numbered in order of their first face") {
   REQUIRE(components_of(CornerTable(mesh.triangles, mesh.positions.size())) == expected);
 
   TriangleMesh kept = mesh;
-  const DroppedComponents dropped = drop_small_components(kept, pieces_of(kept), 13);
+  const DroppedComponents dropped = drop_small(kept, 13);
   REQUIRE(dropped.components == 1);
   REQUIRE(dropped.faces == 12);
   REQUIRE(kept.triangles.size() == other.triangles.size());
   kept = mesh;
-  REQUIRE(drop_small_components(kept, pieces_of(kept), 100000).components ==
-          1);  // the largest one stays
+  REQUIRE(drop_small(kept, 100000).components == 1);  // the largest one stays
   REQUIRE(kept.triangles.size() == other.triangles.size());
 }
 
@@ -184,9 +188,9 @@ TEST_CASE(
   for (const Triangle& t : piece.triangles)
     mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
   TriangleMesh kept = mesh;
-  REQUIRE(drop_small_components(kept, pieces_of(kept), 0).components == 0);
+  REQUIRE(drop_small(kept, 0).components == 0);
   REQUIRE(kept == mesh);
-  REQUIRE(drop_small_components(kept, pieces_of(kept), 5).components == (is_open ? 1U : 0U));
+  REQUIRE(drop_small(kept, 5).components == (is_open ? 1U : 0U));
   REQUIRE(kept.triangles == (is_open ? large : mesh).triangles);
 }
 

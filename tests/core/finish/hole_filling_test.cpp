@@ -3,8 +3,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "core/base/error.h"
+#include "core/finish/verified_fills.h"
 #include "core/mesh/mesh_report.h"
 #include "core/mesh/self_intersection.h"
 #include "tests/core/finish/shapes.h"
@@ -41,6 +43,21 @@ TEST_CASE("a sphere with a hole becomes a closed sphere again") {
   const double sphere = testing::volume_of(whole);
   REQUIRE(testing::volume_of(filled.mesh) > sphere - cap);
   REQUIRE(testing::volume_of(filled.mesh) < sphere - cap + cone);
+}
+
+TEST_CASE("a fill that was made before is as good as one made for the request") {
+  const TriangleMesh open = sphere_with_hole(24, 0.8);
+  const CornerTable table(open.triangles, open.positions.size());
+  const std::vector<BoundaryLoop> loops = boundary_loops(table);
+  REQUIRE(loops.size() == 1);
+  constexpr double kEdge = 0.06;
+  const VerifiedFillOptions options{.edge_length = kEdge, .zip_width = 3.0 * kEdge};
+  TriangleMesh fresh = open, kept = open;
+  REQUIRE(fill_verified(fresh, table, {{.loop = loops[0]}}, options).filled_holes == 1);
+  const HoleFill fill = fill_loop(open.positions, table, loops[0], FillShape::smooth, kEdge);
+  REQUIRE(fill_verified(kept, table, {{.loop = loops[0], .fill = fill}}, options).filled_holes ==
+          1);
+  REQUIRE(kept == fresh);
 }
 
 TEST_CASE("a smooth fill of a sphere stays near the sphere") {

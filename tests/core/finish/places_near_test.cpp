@@ -35,6 +35,9 @@ TEST_CASE("points near places are those that a look at every place finds, in the
   REQUIRE(expected.size() > 50);
   const PointGrid grid(places, Box{Vec3(0.0), Vec3(10.0)}, 0.5 * kRadius);
   CHECK(points_near(points, grid, kRadius) == expected);
+  // Those of a cloud are the same ones, but for being floats, in another order.
+  const PointGrid cloud(points, Box{Vec3(0.0), Vec3(10.0)}, 1.0);
+  CHECK(points_near(cloud, grid, kRadius).size() == expected.size());
 }
 
 TEST_CASE("the part near a place holds the faces that begin there, and no other") {
