@@ -26,6 +26,7 @@ constexpr double kAlike = 0.5;
 /// Between two faces: what hangs together by such edges only are two pieces. The one may be the
 /// inside of what the other is the outside of, where a seam has caught an edge of it.
 constexpr double kFold = -0.5;
+constexpr std::size_t kMinParted = 500;  ///< faces; fewer between folds are a crumpled place
 /// Edges on each side of a place of a boundary that tell its directions.
 constexpr std::size_t kBeside = 4;
 /// How far the way across may rise over the plane of a face: of its length, and in h.
@@ -68,12 +69,46 @@ struct PartedMesh {
   std::vector<std::uint8_t> is_at_fold;  ///< of corners: whether their edge is a boundary by that
 };
 
+/// The number of the piece of each face, parted by folds. Small ones belong to the largest that
+/// they lead to.
+std::vector<std::uint32_t> pieces_between_folds(const CornerTable& table,
+                                                const std::vector<Vec3>& positions) {
+  std::vector<std::uint32_t> piece = components_of(table, [&](std::uint32_t corner) {
+    return has_cosine(face_area_vector(table, positions, corner / 3),
+                      face_area_vector(table, positions, table.across(corner) / 3), kFold);
+  });
+  std::vector<std::size_t> sizes(piece.size(), 0);
+  for (const std::uint32_t p : piece)
+    ++sizes[p];
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> beside;
+  for (std::uint32_t c = 0; c < table.corner_count(); ++c) {
+    const std::uint32_t across = table.across(c);
+    if (across != CornerTable::kNone && piece[c / 3] != piece[across / 3])
+      beside.emplace_back(piece[c / 3], piece[across / 3]);
+  }
+  std::vector<std::uint32_t> whole(piece.size(), CornerTable::kNone);  // that it belongs to
+  for (std::uint32_t p = 0; p < whole.size(); ++p) {
+    if (sizes[p] >= kMinParted) whole[p] = p;
+  }
+  for (bool any = true; any;) {
+    any = false;
+    std::vector<std::uint32_t> next = whole;
+    for (const auto& [p, q] : beside) {
+      if (whole[p] != CornerTable::kNone || whole[q] == CornerTable::kNone) continue;
+      if (next[p] == CornerTable::kNone || sizes[whole[q]] > sizes[next[p]]) next[p] = whole[q];
+      any = true;
+    }
+    whole = std::move(next);
+  }
+  for (std::uint32_t& p : piece) {
+    if (whole[p] != CornerTable::kNone) p = whole[p];
+  }
+  return piece;
+}
+
 PartedMesh parted_at_folds(const TriangleMesh& mesh) {
   const CornerTable table(mesh.triangles, mesh.positions.size());
-  const std::vector<std::uint32_t> piece = components_of(table, [&](std::uint32_t corner) {
-    return has_cosine(face_area_vector(table, mesh.positions, corner / 3),
-                      face_area_vector(table, mesh.positions, table.across(corner) / 3), kFold);
-  });
+  const std::vector<std::uint32_t> piece = pieces_between_folds(table, mesh.positions);
   PartedMesh result{{mesh.positions, mesh.triangles, {}}, {}};
   result.is_at_fold.assign(table.corner_count(), 0);
   for (std::uint32_t c = 0; c < table.corner_count(); ++c) {
