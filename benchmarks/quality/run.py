@@ -199,6 +199,9 @@ CASES = [
     Case('distcap', 'seed/distcap.xyz', bounds=CLEAN + GOOD_ANGLES),
     # Bodies made by code (shapes.py): the topology, and what is thin or close from 2 pixel sides on.
     body('sphere', 0, RIGHT_SIDE_OUT), body('torus', 1, RIGHT_SIDE_OUT), body('trefoil', 1, RIGHT_SIDE_OUT),
+    # Next to its sharp rim above, faces of one side are nearest to the other: 0.2 %.
+    made('bell', [Bound('components', '==', 1), Bound('boundary_loops', '==', 1), Bound('cloud_within_05', '>=', 0.998),
+                  Bound('inverted_share', '<=', 0.01, True)]),
     made('bowl', [Bound('components', '==', 1), Bound('boundary_loops', '==', 1)], RIGHT_SIDE_OUT),
     made('plate 0.3'), made('plate 0.9'), body('plate 2', 0), body('plate 3', 0), body('plate 5', 0),
     made('shell 0.3'), made('shell 0.9'), body('shell 2', 0), body('shell 3', 0), body('shell 5', 0),

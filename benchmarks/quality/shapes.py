@@ -48,6 +48,14 @@ def revolved(radius, height, closed, segments=400):
     return np.concatenate(vertices), without_collapsed(np.concatenate(faces))
 
 
+def bell(waist=43.0, rim=84.0, height=78.0, steps=200):
+    """A bell with a waist, closed above and open below: its upper half shows from outside, its lower one from inside."""
+    z = np.linspace(0, height, steps)
+    radius = waist + (rim - waist) * (2 * z / height - 1) ** 2
+    top = np.linspace(rim, 0, steps)[1:]
+    return revolved(np.r_[radius, top], np.r_[z, np.full(len(top), height)], closed=False)
+
+
 def without_collapsed(faces):
     return faces[(faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])]
 
@@ -361,6 +369,7 @@ def make(name):
         'sphere': lambda: drawn(sphere(60), 1),
         'torus': lambda: drawn(torus(50, 20), 2, genus=1),
         'trefoil': lambda: drawn(trefoil(24, 9), 3, genus=1),
+        'bell': lambda: drawn(bell(), 23),
         'bowl': lambda: drawn(revolved(*arc(60, np.pi / 2, np.pi, 100), closed=False), 4),
         'plate': lambda: drawn(box(100, 80, size), 5),
         'shell': lambda: drawn(shell(50, size), 6),
@@ -384,7 +393,7 @@ def make(name):
     return makers[kind]()
 
 
-NAMES = (['sphere', 'torus', 'trefoil', 'bowl'] + ['plate %g' % t for t in (0.3, 0.9, 2, 3, 5)] +
+NAMES = (['sphere', 'torus', 'trefoil', 'bell', 'bowl'] + ['plate %g' % t for t in (0.3, 0.9, 2, 3, 5)] +
          ['shell %g' % t for t in (0.3, 0.9, 2, 3, 5)] + ['cube'] + ['pocket %g' % d for d in (0.5, 1, 2)] +
          ['spheres %g' % g for g in (0, 0.3, 0.8, 2, 3)] +
          [f'{two} {gap}' for two in ('slabs', 'bars') for gap in (2, 3, 4)] +
