@@ -120,6 +120,7 @@ class Reacher {
   /// What is far from vertices that were to move is as hopeless as it was.
   void keep_points_near(const std::vector<std::uint32_t>& tried) {
     std::vector<Vec3> places;
+    places.reserve(tried.size());
     for (const std::uint32_t v : tried)
       places.push_back(at(v));
     const double radius = kChanged * options_.pixel_size;
