@@ -26,6 +26,7 @@ struct DroppedComponents {
 /// always stays. With 0 all stay. Positions stay.
 /// @param table of the mesh, as it is before
 /// @param component of each face: components_of(table)
+/// @pre oriented and manifold
 DroppedComponents drop_small_components(TriangleMesh& mesh, const CornerTable& table,
                                         const std::vector<std::uint32_t>& component,
                                         std::size_t min_faces);

@@ -69,6 +69,28 @@ struct PartedMesh {
   std::vector<std::uint8_t> is_at_fold;  ///< of corners: whether their edge is a boundary by that
 };
 
+/// The large piece that each piece belongs to: large ones to themselves, small ones to the largest
+/// that they lead to over the fewest others; kNone if to none.
+std::vector<std::uint32_t> wholes_of(
+    const std::vector<std::size_t>& sizes,
+    const std::vector<std::pair<std::uint32_t, std::uint32_t>>& beside) {
+  std::vector<std::uint32_t> whole(sizes.size(), CornerTable::kNone);
+  for (std::uint32_t p = 0; p < whole.size(); ++p) {
+    if (sizes[p] >= kMinParted) whole[p] = p;
+  }
+  for (bool any = true; any;) {
+    any = false;
+    std::vector<std::uint32_t> next = whole;
+    for (const auto& [p, q] : beside) {
+      if (whole[p] != CornerTable::kNone || whole[q] == CornerTable::kNone) continue;
+      if (next[p] == CornerTable::kNone || sizes[whole[q]] > sizes[next[p]]) next[p] = whole[q];
+      any = true;
+    }
+    whole = std::move(next);
+  }
+  return whole;
+}
+
 /// The number of the piece of each face, parted by folds. Small ones belong to the largest that
 /// they lead to.
 std::vector<std::uint32_t> pieces_between_folds(const CornerTable& table,
@@ -86,20 +108,7 @@ std::vector<std::uint32_t> pieces_between_folds(const CornerTable& table,
     if (across != CornerTable::kNone && piece[c / 3] != piece[across / 3])
       beside.emplace_back(piece[c / 3], piece[across / 3]);
   }
-  std::vector<std::uint32_t> whole(piece.size(), CornerTable::kNone);  // that it belongs to
-  for (std::uint32_t p = 0; p < whole.size(); ++p) {
-    if (sizes[p] >= kMinParted) whole[p] = p;
-  }
-  for (bool any = true; any;) {
-    any = false;
-    std::vector<std::uint32_t> next = whole;
-    for (const auto& [p, q] : beside) {
-      if (whole[p] != CornerTable::kNone || whole[q] == CornerTable::kNone) continue;
-      if (next[p] == CornerTable::kNone || sizes[whole[q]] > sizes[next[p]]) next[p] = whole[q];
-      any = true;
-    }
-    whole = std::move(next);
-  }
+  const std::vector<std::uint32_t> whole = wholes_of(sizes, beside);
   for (std::uint32_t& p : piece) {
     if (whole[p] != CornerTable::kNone) p = whole[p];
   }

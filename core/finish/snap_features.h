@@ -17,8 +17,8 @@ struct SnapOptions {
   ShareField sizes;         ///< of triangles, in h: where they are smaller, they take its place
   double edge = 0.0;        ///< mean length, model units, where the size is one: if it is shorter
                             ///< than scans make it, so is what counts as too short; 0: it is not
-  std::vector<std::uint8_t> is_kept;  ///< vertices that stay where they are, as do edges between
-                                      ///< two of which one is; empty: none
+  std::vector<std::uint8_t> is_kept;  ///< vertices that stay where they are, with the edges that
+                                      ///< end there; empty: none
 };
 
 struct SnapReport {
