@@ -26,6 +26,10 @@ class FaceGrid {
   /// is.
   [[nodiscard]] std::uint32_t nearest_face(const Vec3& place, double distance) const;
 
+  /// The same, faster where a face near the place is known.
+  [[nodiscard]] std::uint32_t nearest_face(const Vec3& place, double distance,
+                                           std::uint32_t guess) const;
+
   /// Whether a face comes nearer to the place than `distance`, at most the reach.
   [[nodiscard]] bool has_face_within(const Vec3& place, double distance) const;
 
@@ -33,7 +37,14 @@ class FaceGrid {
   using Cell = std::array<std::size_t, 3>;
 
   void choose_cells(double cell);
-  [[nodiscard]] std::uint32_t nearest_face_within(const Vec3& place, double distance) const;
+  /// A face that is known, and how near it is.
+  struct Nearest {
+    std::uint32_t face;
+    double squared_distance;
+  };
+  /// The nearest face, if it comes nearer than the one that is known.
+  [[nodiscard]] std::uint32_t nearer_face(const Vec3& place, Nearest known) const;
+  [[nodiscard]] double squared_distance(std::uint32_t face, const Vec3& place) const;
   /// Lists the faces of every marked (1) cell.
   void sort_faces(const std::vector<std::uint8_t>& is_asked);
   [[nodiscard]] Cell cell_at(const Vec3& place) const;

@@ -62,7 +62,7 @@ VertexSurface FeatureCloud::surface_at(const Vec3& place, const Vec3& normal) co
   // Of pure noise, hardly a mean square is larger.
   const double most_noise = 1.0 + kSureness * std::sqrt(2.0 / (fit.count - kFitTerms));
   const double limit = kCleanResidual * h;
-  return {.center = place + fit.height * normal,
+  return {.center = fit.foot,
           .normal = fit.normal,
           .bending = fit.bending,
           .residual2 = scatter.noise2,

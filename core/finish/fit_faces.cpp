@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/base/parallel.h"
-#include "core/base/solve.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/edge_changes.h"
 #include "core/finish/points_on_faces.h"
@@ -18,8 +17,9 @@ namespace rangezip {
 namespace {
 
 // Angles as cosines.
-constexpr int kRounds = 4;
-constexpr int kSweeps = 5;  // of solving: the rounds go on with what is left
+constexpr int kRounds = 4;      // at least
+constexpr int kMostRounds = 6;  // if the median of the angles is not met before
+constexpr int kSweeps = 3;      // of solving: the rounds go on with what is left
 constexpr double kMostTurn = 0.5;
 constexpr double kSharpest = 0.5;     // edge that may arise
 constexpr double kTurnGain = 0.995;   // of the squared distances: equal ones would turn to and fro
@@ -52,21 +52,23 @@ class Fitter {
         options_(options),
         hold_(options.hold),
         table_(mesh.triangles, mesh.positions.size()),
-        points_(mesh, std::move(points), options.reach) {}
+        points_(mesh, table_, std::move(points), options.reach) {}
 
   void run(const Progress& progress) {
-    for (int round = 0; round < kRounds; ++round) {
+    bool is_median_met = true;
+    for (int round = 0; round < kRounds || (round < kMostRounds && !is_median_met); ++round) {
       progress.check_stop();
       if (round > 0) points_.follow(table_, positions_);
       if (round > 0 && turn_edges() > 0) points_.follow(table_, positions_);
       sum_faces();
       hold_vertices();
-      shifts_.assign(positions_.size(), Vec3(0.0));
+      prepare_vertices();
       for (int sweep = 0; sweep < kSweeps; ++sweep)
         solve_vertices();
       move_vertices();
-      if (options_.median_angle > 0.0 && median_of_smallest_angles() < options_.median_angle)
-        hold_ *= kMoreHold;
+      is_median_met =
+          options_.median_angle == 0.0 || median_of_smallest_angles() >= options_.median_angle;
+      if (!is_median_met) hold_ *= kMoreHold;
     }
   }
   [[nodiscard]] std::vector<Triangle> triangles() const { return table_.triangles(); }
@@ -201,6 +203,29 @@ class Fitter {
     return way - glm::dot(way, normal) * normal;
   }
 
+  /// What of a vertex's equations stays the same while others move.
+  void prepare_vertices() {
+    shifts_.assign(positions_.size(), Vec3(0.0));
+    inverses_.assign(positions_.size(), Mat3(0.0));
+    rights_.assign(positions_.size(), Vec3(0.0));
+    parallel_for(positions_.size(), kPerBlock, [&](std::size_t begin, std::size_t end) {
+      for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
+        if (!table_.is_boundary(v)) prepare_vertex(v);
+      }
+    });
+  }
+
+  void prepare_vertex(std::uint32_t v) {
+    Mat3 products(holds_[v]);
+    rights_[v] = holds_[v] * rests_[v];
+    table_.for_each_corner(v, [&](std::uint32_t c) {
+      const FaceSums& sums = sums_[c / 3];
+      rights_[v] += sums.right[c % 3] * sums.normal;
+      products += sums.products[c % 3][c % 3] * glm::outerProduct(sums.normal, sums.normal);
+    });
+    inverses_[v] = glm::inverse(products);  // holds are positive: so is its determinant
+  }
+
   /// Each vertex in turn to where it is best, the others where they are, as in the method of Gauss
   /// and Seidel.
   void solve_vertices() {
@@ -210,17 +235,15 @@ class Fitter {
   }
 
   [[nodiscard]] Vec3 best_shift(std::uint32_t v) const {
-    Mat3 products(holds_[v]);
-    Vec3 right = holds_[v] * rests_[v];
+    Vec3 right = rights_[v];
     table_.for_each_corner(v, [&](std::uint32_t c) {
       const FaceSums& sums = sums_[c / 3];
       const std::array<double, 3>& with = sums.products[c % 3];
       const double others = with[(c + 1) % 3] * glm::dot(sums.normal, shifts_[table_.head(c)]) +
                             with[(c + 2) % 3] * glm::dot(sums.normal, shifts_[table_.apex(c)]);
-      right += (sums.right[c % 3] - others) * sums.normal;
-      products += with[c % 3] * glm::outerProduct(sums.normal, sums.normal);
+      right -= others * sums.normal;
     });
-    return solve(products, right, 0.0).value_or(Vec3(0.0));
+    return inverses_[v] * right;
   }
 
   void move_vertices() {
@@ -267,8 +290,10 @@ class Fitter {
   CornerTable table_;
   PointsOnFaces points_;
   std::vector<FaceSums> sums_;
-  std::vector<Vec3> rests_;    ///< of each vertex, relative to it
-  std::vector<double> holds_;  ///< in points
+  std::vector<Vec3> rests_;     ///< of each vertex, relative to it
+  std::vector<double> holds_;   ///< in points
+  std::vector<Mat3> inverses_;  ///< of a vertex's own equations
+  std::vector<Vec3> rights_;    ///< their right sides, but for what the others' shifts do
   std::vector<Vec3> shifts_;
 };
 

@@ -26,11 +26,12 @@ struct FitFacesOptions {
 /// vertex comes to lie off a curved surface, on the outer side of its triangles, and slides to
 /// where the surface bends most. Where few points tell, faces stay in their planes. Where it does
 /// not bend, vertices move towards the middle of their faces; and edges turn for better angles
-/// where the points stay as near. In four rounds, in each of which points find their faces anew.
+/// where the points stay as near. In four rounds, in each of which points find their faces anew, or
+/// up to six if the median of the angles is not met before.
 /// Vertices and edges stay where an angle would get both under the smallest one and smaller than it
 /// is, or a face would turn by more than 60 degrees. The boundary stays. May leave
 /// self-intersections where sheets are close together. Cost: linear in points and faces; in
-/// parallel but for 20 visits a face.
+/// parallel but for three visits of a face in each round.
 /// @param points of hardly any noise, best several a face
 /// @pre oriented, manifold (core/finish/clean_topology.h)
 void fit_faces(TriangleMesh& mesh, std::vector<Vec3> points, const FitFacesOptions& options,

@@ -65,7 +65,7 @@ class Probing {
     for (int step = 0; step < kSteps; ++step) {
       const SurfaceFit fit = fit_surface(cloud_, place, normal, window_);
       if (!fit.is_found) return {};
-      place += fit.height * normal;
+      place = fit.foot;
       normal = fit.normal;
     }
     Errors errors;

@@ -21,13 +21,16 @@ constexpr std::size_t kPerBlock = 512;
 /// distance tilts faces more than it brings them nearer.
 constexpr double kSmoothing = 0.6;
 
-/// A quadrature of the second degree: barycentric coordinates of equal weight.
-constexpr double kNear = 2.0 / 3.0, kFar = 1.0 / 6.0;
-constexpr std::array<std::array<double, 3>, 3> kSamples{
-    {{kNear, kFar, kFar}, {kFar, kNear, kFar}, {kFar, kFar, kNear}}};
-
 /// One value a corner.
 using CornerValues = std::array<double, 3>;
+using Barycentric = std::array<double, 3>;
+
+constexpr Barycentric kMiddle{1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
+
+/// A quadrature of the second degree, of equal weights.
+constexpr double kNear = 2.0 / 3.0, kFar = 1.0 / 6.0;
+constexpr std::array<Barycentric, 3> kSamples{
+    {{kNear, kFar, kFar}, {kFar, kNear, kFar}, {kFar, kFar, kNear}}};
 
 class Fitter {
  public:
@@ -82,17 +85,19 @@ class Fitter {
   [[nodiscard]] CornerValues gap_integrals(std::size_t face) const {
     CornerValues sums{};
     const Triangle& t = mesh_.triangles[face];
-    for (const auto& w : kSamples) {
-      Vec3 place{0.0}, normal{0.0};
-      for (std::size_t k = 0; k < 3; ++k) {
-        place += w[k] * mesh_.positions[t[k]];
-        normal += w[k] * normals_[t[k]];
-      }
-      normal = unit_or_z(normal);
-      const SurfaceFit fit = fit_surface(surface_, place, normal, fit_.at(place));
-      if (!fit.is_found || glm::dot(fit.normal, normal) < kMinCosine) continue;
+    const auto place_at = [&](const Barycentric& w) {
+      return w[0] * mesh_.positions[t[0]] + w[1] * mesh_.positions[t[1]] +
+             w[2] * mesh_.positions[t[2]];
+    };
+    const Vec3 normal = unit_or_z(normals_[t[0]] + normals_[t[1]] + normals_[t[2]]);
+    const Vec3 middle = place_at(kMiddle);
+    const SurfaceFit fit = fit_surface(surface_, middle, normal, fit_.at(middle));
+    if (!fit.is_found || glm::dot(fit.normal, normal) < kMinCosine) return sums;
+    for (const Barycentric& w : kSamples) {
+      const Vec3 place = place_at(w);
+      const double height = glm::dot(projected_onto(fit, place) - place, fit.normal);
       for (std::size_t k = 0; k < 3; ++k)
-        sums[k] += areas_[face] / 3.0 * w[k] * fit.height;
+        sums[k] += areas_[face] / 3.0 * w[k] * height;
     }
     return sums;
   }

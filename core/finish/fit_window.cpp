@@ -62,7 +62,7 @@ std::vector<Probe> make_probes(const TriangleMesh& mesh, const PointGrid& cloud,
       for (int step = 0; step <= kSteps; ++step) {
         probe.narrowest = measure_surface(cloud, probe.place, probe.normal, window);
         if (!probe.narrowest.fit.is_found || step == kSteps) break;
-        probe.place += probe.narrowest.fit.height * probe.normal;
+        probe.place = probe.narrowest.fit.foot;
         probe.normal = probe.narrowest.fit.normal;
       }
     }

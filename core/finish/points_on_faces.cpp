@@ -58,12 +58,17 @@ std::uint32_t walk(const CornerTable& table, const std::vector<Vec3>& positions,
 
 }  // namespace
 
-PointsOnFaces::PointsOnFaces(const TriangleMesh& mesh, std::vector<Vec3> points, double reach)
+PointsOnFaces::PointsOnFaces(const TriangleMesh& mesh, const CornerTable& table,
+                             std::vector<Vec3> points, double reach)
     : points_(std::move(points)), face_of_(points_.size(), kNone) {
   const FaceGrid grid(mesh, cell_for(mesh, reach));
   parallel_for(points_.size(), kPerBlock, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      face_of_[i] = grid.nearest_face(points_[i], reach);
+    std::uint32_t guess = 0;  // points follow each other closely, mostly
+    for (std::size_t i = begin; i < end; ++i) {
+      face_of_[i] =
+          grid.nearest_face(points_[i], reach, walk(table, mesh.positions, guess, points_[i]));
+      if (face_of_[i] != kNone) guess = face_of_[i];
+    }
   });
   sort(mesh.triangles.size());
 }

@@ -16,7 +16,9 @@ class PointsOnFaces {
  public:
   /// Finds the nearest face of every point.
   /// @param reach points farther than this from the mesh belong to no face, model units; positive
-  PointsOnFaces(const TriangleMesh& mesh, std::vector<Vec3> points, double reach);
+  /// @param table that of the mesh, which has faces
+  PointsOnFaces(const TriangleMesh& mesh, const CornerTable& table, std::vector<Vec3> points,
+                double reach);
 
   /// The same after vertices have moved a little, or edges have turned: from its last face, each
   /// point walks over edges as long as faces come nearer.

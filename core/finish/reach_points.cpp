@@ -89,7 +89,7 @@ class Reacher {
   };
 
   Moves round() {
-    const PointsOnFaces on(mesh_, points_, kReach * options_.pixel_size);
+    const PointsOnFaces on(mesh_, table_, points_, kReach * options_.pixel_size);
     const std::vector<Vec3> before = positions_;
     std::vector<std::uint8_t> is_busy(positions_.size(), 0);
     std::vector<std::uint32_t> moved;

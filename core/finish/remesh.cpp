@@ -36,6 +36,8 @@ constexpr std::array kProjections{1.5, 1.0};  // before the first round, with wi
 constexpr int kClosingRounds = 2;
 constexpr int kAligningRounds = 2;
 constexpr int kSizingRounds = 4;  // later ones keep the relative lengths
+constexpr int kAnewRounds = 2;    // in later ones, and not at the end, vertices hardly move:
+constexpr double kReuse = 0.25;   // within so much of a window the fit of before is as good
 constexpr std::size_t kPerBlock = 512;
 
 class Remesher {
@@ -75,19 +77,21 @@ class Remesher {
         report.flipped_edges += flip_for_angles(table_, positions_);
       }
       report.flattened_spikes += flatten_spikes(positions_, table_, cloud_, options_.pixel_size);
-      relax_vertices();
+      relax_vertices(round < kAnewRounds ? Fits::anew : Fits::again);
     }
     report.edge = scale_;
     report.flipped_edges += flip_for_angles(table_, positions_);
     report.collapsed_edges += collapse_small_angles();
     for (int round = 0; round < kAligningRounds; ++round) {
-      if (round > 0) relax_vertices();
+      if (round > 0) relax_vertices(Fits::anew);
       report.flipped_edges += flip_for_normals(table_, positions_, surface_normals());
     }
   }
   [[nodiscard]] std::vector<Triangle> triangles() const { return table_.triangles(); }
 
  private:
+  enum class Fits : std::uint8_t { anew, again };
+
   [[nodiscard]] const Vec3& at(std::uint32_t vertex) const { return positions_[vertex]; }
   [[nodiscard]] bool is_coarse(int round) const {
     return round == 0 && options_.rounds > kRoundsAfterCoarse;
@@ -235,11 +239,17 @@ class Remesher {
   }
 
   /// To the middle of the faces around, then onto the surface of the cloud.
-  void relax_vertices() {
+  void relax_vertices(Fits fits) {
     move_vertices([&](std::uint32_t v) {
       const Vec3 normal = vertex_normal(table_, positions_, v);
-      return projected(v, middle_around(v, normal), normal, 1.0);
+      const Vec3 middle = middle_around(v, normal);
+      return fits == Fits::again && is_fit_near(v, middle) ? projected_onto(fits_[v], middle)
+                                                           : projected(v, middle, normal, 1.0);
     });
+  }
+  [[nodiscard]] bool is_fit_near(std::uint32_t v, const Vec3& p) const {
+    return fits_[v].is_found &&
+           glm::distance(p, fits_[v].foot) <= kReuse * options_.fit.at(p).radius;
   }
 
   /// Inner vertices to place_of(vertex), all at once, where that turns no face.
@@ -279,7 +289,7 @@ class Remesher {
     SurfaceFit& fit = fits_[v];
     fit = fit_surface(surface_, p, normal, options_.fit.at(p, radii));
     if (fit.is_found && glm::dot(fit.normal, normal) < kFitMinCosine) fit.is_found = false;
-    return fit.is_found ? p + fit.height * normal : p;
+    return fit.is_found ? fit.foot : p;
   }
 
   [[nodiscard]] std::vector<Vec3> surface_normals() const {
@@ -298,9 +308,9 @@ class Remesher {
   CornerTable table_;
   std::size_t faces_;
   std::size_t wanted_faces_;
-  double scale_ = 0.0;           ///< wanted edge length where the relative one is 1
-  std::vector<double> lengths_;  ///< relative, one a vertex
-  std::vector<SurfaceFit> fits_;
+  double scale_ = 0.0;            ///< wanted edge length where the relative one is 1
+  std::vector<double> lengths_;   ///< relative, one a vertex
+  std::vector<SurfaceFit> fits_;  ///< the last one of each vertex
 };
 
 }  // namespace

@@ -189,13 +189,15 @@ void shrink_bending(Solution& solution, const NormalEquations& equations, double
     solution.terms[i] = share * solution.terms[i] + (1.0 - share) * plane[i];
 }
 
-SurfaceFit fit_from(const Solution& solution, int count, const Frame& frame, double radius) {
+SurfaceFit fit_from(const Solution& solution, int count, const Vec3& place, const Frame& frame,
+                    double radius) {
   SurfaceFit fit;
   if (solution.size == 0) return fit;
   fit.is_found = true;
   fit.count = count;
   const Terms& t = solution.terms;
   fit.height = t[0] * radius;
+  fit.foot = place + fit.height * frame.normal;
   const Vec3 steep = frame.normal - t[1] * frame.u - t[2] * frame.v;
   const double length = glm::length(steep);
   fit.normal = steep / length;
@@ -288,10 +290,17 @@ SurfaceFit fit_surface(const PointGrid& cloud, const Vec3& place, const Vec3& no
     Solution solution = solve(equations);
     const bool is_sure = tells_bending(solution, equations);
     shrink_bending(solution, equations, tried.noise / tried.radius);
-    if (solution.size > 0) fit = fit_from(solution, equations.count, frame, tried.radius);
+    if (solution.size > 0) fit = fit_from(solution, equations.count, place, frame, tried.radius);
     tried.radius *= kWiden;
     if (is_sure || tried.radius > window.widest) return fit;
   }
+}
+
+Vec3 projected_onto(const SurfaceFit& fit, const Vec3& place) {
+  const Vec3 way = place - fit.foot;
+  const double off = glm::dot(way, fit.normal);
+  const Vec3 along = way - off * fit.normal;
+  return place + (0.5 * glm::dot(along, fit.bending * along) - off) * fit.normal;
 }
 
 double fit_covariance(double narrow_radius, double wide_radius) {
@@ -307,7 +316,7 @@ MeasuredFit measure_surface(const PointGrid& cloud, const Vec3& place, const Vec
   MeasuredSums sums;
   add_samples(cloud, place, frame, window, sums);
   const Solution solution = solve(sums.equations);
-  return {fit_from(solution, sums.equations.count, frame, window.radius),
+  return {fit_from(solution, sums.equations.count, place, frame, window.radius),
           scatter_from(solution, sums.equations, sums.scatter, window.radius)};
 }
 

@@ -22,6 +22,7 @@ struct SurfaceFit {
   bool is_found = false;  ///< false: too few points, or they are no surface; nothing else counts
   int count = 0;          ///< points with a weight; of a thinned cloud, its points
   double height = 0.0;    ///< of the surface over the place, along the normal that was given
+  Vec3 foot{0.0};         ///< of the place on the surface, along that normal
   Vec3 normal{0.0};       ///< unit, of the surface there; on the side of the given one
   Mat3 bending{0.0};      ///< e^T bending e: how the surface bends away along a tangent vector e,
                           ///< to second order twice the height gained over e
@@ -34,6 +35,11 @@ struct SurfaceFit {
 /// @pre normal is a unit vector
 [[nodiscard]] SurfaceFit fit_surface(const PointGrid& cloud, const Vec3& place, const Vec3& normal,
                                      const SurfaceWindow& window);
+
+/// A place on the fitted surface, or near it, moved onto it across the tangent plane at the foot;
+/// exact to second order, for places much nearer to the foot than the window is wide.
+/// @pre is_found
+[[nodiscard]] Vec3 projected_onto(const SurfaceFit& fit, const Vec3& place);
 
 /// What noise does to a fit.
 struct SurfaceScatter {

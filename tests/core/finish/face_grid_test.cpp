@@ -73,6 +73,10 @@ TEST_CASE("FaceGrid finds the nearest face of all, near or far, and none beyond 
                                                 mesh.positions[t[2]]);
     REQUIRE(glm::length(foot - p) == Approx(distance));
     REQUIRE(grid.nearest_face(p, 3.0) == face);
+    const auto guess = static_cast<std::uint32_t>(
+        uniform(engine, 0.0, static_cast<double>(mesh.triangles.size())));
+    REQUIRE(grid.nearest_face(p, 3.0, guess) == face);
+    REQUIRE(grid.nearest_face(p, 0.999 * distance, guess) == CornerTable::kNone);
     REQUIRE(grid.nearest_face(p, 0.999 * distance) == CornerTable::kNone);
   }
 }

@@ -48,7 +48,8 @@ TEST_CASE("points belong to the nearest face within reach and follow it when ver
     points.push_back(uniform(engine, 0.8, 1.3) * glm::normalize(direction));
     within += distance_to(mesh, points.back()) < kReach ? 1 : 0;
   }
-  PointsOnFaces on_faces(mesh, points, kReach);
+  const CornerTable table(mesh.triangles, mesh.positions.size());
+  PointsOnFaces on_faces(mesh, table, points, kReach);
   REQUIRE(within > 100);
   REQUIRE(within < points.size());
   REQUIRE(count_and_check(on_faces, mesh, 1e-12) == within);
@@ -56,7 +57,7 @@ TEST_CASE("points belong to the nearest face within reach and follow it when ver
   constexpr double kMove = 0.02;
   for (Vec3& p : mesh.positions)
     p += kMove * Vec3{uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1)};
-  on_faces.follow(CornerTable(mesh.triangles, mesh.positions.size()), mesh.positions);
+  on_faces.follow(table, mesh.positions);
   REQUIRE(count_and_check(on_faces, mesh, kMove) == within);
 }
 

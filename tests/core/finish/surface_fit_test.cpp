@@ -55,6 +55,24 @@ TEST_CASE("the fit to points of a quadric is that quadric") {
   REQUIRE(glm::length(fit.bending * z) < 1e-9);
 }
 
+TEST_CASE("places near the foot of a fit move onto its quadric, but for the third order") {
+  const std::uint64_t seed = GENERATE(4U, 5U);
+  CAPTURE(seed);
+  std::mt19937_64 engine(seed);
+  const Quadric quadric;
+  const PointGrid cloud(points_of(quadric, 400, 0.0, engine), kRegion, 0.2);
+  const SurfaceFit fit = fit_surface(cloud, Vec3{0.0}, {0.0, 0.0, 1.0}, {kRadius, 1.0});
+  REQUIRE(glm::length(fit.foot - Vec3(0.0, 0.0, 0.03)) < 1e-6);
+  REQUIRE(glm::length(projected_onto(fit, fit.foot) - fit.foot) < 1e-12);
+  for (int i = 0; i < 100; ++i) {
+    const double far = uniform(engine, 0.0, 0.2 * kRadius);
+    const Vec3 direction{uniform(engine, -1, 1), uniform(engine, -1, 1),
+                         uniform(engine, -0.2, 0.2)};
+    const Vec3 onto = projected_onto(fit, fit.foot + far * glm::normalize(direction));
+    REQUIRE(std::abs(onto.z - quadric.height(onto.x, onto.y)) < far * far * far + 1e-6);
+  }
+}
+
 TEST_CASE("bending that noise may have made is taken back, the rest stays") {
   const std::uint64_t seed = GENERATE(11U, 12U, 13U, 14U);
   CAPTURE(seed);
