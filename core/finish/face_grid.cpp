@@ -111,7 +111,8 @@ std::uint32_t FaceGrid::nearest_face(const Vec3& place, double distance,
 }
 
 std::uint32_t FaceGrid::nearer_face(const Vec3& place, Nearest known) const {
-  auto [nearest, least] = known;
+  std::uint32_t nearest = known.face;
+  double least = known.squared_distance;
   const double reach = std::sqrt(least);
   for_each_cell({place - reach, place + reach}, [&](std::size_t at) {
     for (std::size_t i = starts_[at]; i < starts_[at + 1]; ++i) {
