@@ -106,7 +106,7 @@ std::uint32_t FaceGrid::nearest_face(const Vec3& place, double distance) const {
 std::uint32_t FaceGrid::nearest_face(const Vec3& place, double distance,
                                      std::uint32_t guess) const {
   const double squared = squared_distance(guess, place);
-  if (squared > distance * distance) return nearest_face(place, distance);
+  if (!(squared <= distance * distance)) return nearest_face(place, distance);
   return nearer_face(place, {guess, squared});
 }
 
