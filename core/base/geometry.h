@@ -95,4 +95,11 @@ struct Plane {
 [[nodiscard]] Vec3 closest_point_on_triangle(const Vec3& point, const Vec3& a, const Vec3& b,
                                              const Vec3& c) noexcept;
 
+/// Of a point from closest_point_on_triangle().
+[[nodiscard]] inline double squared_distance_to_triangle(const Vec3& point, const Vec3& a,
+                                                         const Vec3& b, const Vec3& c) noexcept {
+  const Vec3 offset = closest_point_on_triangle(point, a, b, c) - point;
+  return glm::dot(offset, offset);
+}
+
 }  // namespace rangezip

@@ -130,10 +130,8 @@ std::uint32_t FaceGrid::nearer_face(const Vec3& place, Nearest known) const {
 
 double FaceGrid::squared_distance(std::uint32_t face, const Vec3& place) const {
   const Triangle& t = mesh_.triangles[face];
-  const Vec3 offset = closest_point_on_triangle(place, mesh_.positions[t[0]], mesh_.positions[t[1]],
-                                                mesh_.positions[t[2]]) -
-                      place;
-  return glm::dot(offset, offset);
+  return squared_distance_to_triangle(place, mesh_.positions[t[0]], mesh_.positions[t[1]],
+                                      mesh_.positions[t[2]]);
 }
 
 bool FaceGrid::has_face_within(const Vec3& place, double distance) const {

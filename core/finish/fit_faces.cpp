@@ -77,8 +77,7 @@ class Fitter {
   [[nodiscard]] const Vec3& at(std::uint32_t vertex) const { return positions_[vertex]; }
   [[nodiscard]] double squared_distance(std::uint32_t a, std::uint32_t b, std::uint32_t c,
                                         const Vec3& point) const {
-    const Vec3 offset = closest_point_on_triangle(point, at(a), at(b), at(c)) - point;
-    return glm::dot(offset, offset);
+    return squared_distance_to_triangle(point, at(a), at(b), at(c));
   }
 
   /// Where that brings the faces nearer to their points, or angles grow and they stay as near. Of

@@ -18,9 +18,7 @@ constexpr int kMostSteps = 6;          // of a walk: vertices move by less than 
 double squared_distance(const CornerTable& table, const std::vector<Vec3>& positions,
                         std::uint32_t face, const Vec3& point) {
   const Triangle t = table.triangle(face);
-  const Vec3 offset =
-      closest_point_on_triangle(point, positions[t[0]], positions[t[1]], positions[t[2]]) - point;
-  return glm::dot(offset, offset);
+  return squared_distance_to_triangle(point, positions[t[0]], positions[t[1]], positions[t[2]]);
 }
 
 /// About the size of faces, model units.

@@ -15,8 +15,8 @@ namespace rangezip {
 class PointsOnFaces {
  public:
   /// Finds the nearest face of every point.
-  /// @param reach points farther than this from the mesh belong to no face, model units; positive
   /// @param table that of the mesh, which has faces
+  /// @param reach points farther than this from the mesh belong to no face, model units; positive
   PointsOnFaces(const TriangleMesh& mesh, const CornerTable& table, std::vector<Vec3> points,
                 double reach);
 

@@ -178,8 +178,7 @@ class Reacher {
 
   [[nodiscard]] double distance2_to(std::uint32_t face, const Vec3& p) const {
     const Triangle t = table_.triangle(face);
-    const Vec3 offset = closest_point_on_triangle(p, at(t[0]), at(t[1]), at(t[2])) - p;
-    return glm::dot(offset, offset);
+    return squared_distance_to_triangle(p, at(t[0]), at(t[1]), at(t[2]));
   }
 
   [[nodiscard]] std::uint32_t nearest_corner(std::uint32_t face, const Vec3& p) const {

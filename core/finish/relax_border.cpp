@@ -52,7 +52,7 @@ void relax(TriangleMesh& mesh, const std::vector<std::uint8_t>& is_border,
     const Vec3 normal = vertex_normal(table, positions, v);
     const SurfaceFit found = fit_surface(surface, target, normal, fit.at(target));
     if (!found.is_found || glm::dot(found.normal, normal) < kFitMinCosine) return std::nullopt;
-    return target + found.height * normal;
+    return found.foot;
   };
   const auto may_face = [&](std::uint32_t v, const Vec3& direction) {
     return has_cosine(vertex_normal(table, positions, v), direction, kFaceCosine);

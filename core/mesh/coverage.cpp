@@ -51,9 +51,8 @@ class FaceGrid {
 
   [[nodiscard]] bool is_face_near(std::uint32_t face, const Vec3& point) const {
     const auto& [a, b, c] = mesh_.triangles[face];
-    const Vec3 away = point - closest_point_on_triangle(point, mesh_.positions[a],
-                                                        mesh_.positions[b], mesh_.positions[c]);
-    return glm::dot(away, away) <= distance_ * distance_;
+    return squared_distance_to_triangle(point, mesh_.positions[a], mesh_.positions[b],
+                                        mesh_.positions[c]) <= distance_ * distance_;
   }
 
   using Cell = std::array<int, 3>;
