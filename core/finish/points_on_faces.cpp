@@ -14,6 +14,9 @@ constexpr std::size_t kPerBlock = 1024;
 constexpr double kCellPerEdge = 1.5;
 constexpr double kSmallestCell = 0.1;  // of the reach
 constexpr int kMostSteps = 6;          // of a walk: vertices move by less than an edge
+/// Of the squared distance: of a point over a convex edge both faces are as near, but for rounding,
+/// which is to decide nothing.
+constexpr double kNearer = 0.999;
 
 double squared_distance(const CornerTable& table, const std::vector<Vec3>& positions,
                         std::uint32_t face, const Vec3& point) {
@@ -47,7 +50,7 @@ std::uint32_t walk(const CornerTable& table, const std::vector<Vec3>& positions,
   for (int step = 0; step < kMostSteps; ++step) {
     const std::uint32_t next = face_towards(table, positions, face, point);
     if (next == face || !(squared_distance(table, positions, next, point) <
-                          squared_distance(table, positions, face, point)))
+                          kNearer * squared_distance(table, positions, face, point)))
       return face;
     face = next;
   }

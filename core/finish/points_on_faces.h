@@ -21,7 +21,7 @@ class PointsOnFaces {
                 double reach);
 
   /// The same after vertices have moved a little, or edges have turned: from its last face, each
-  /// point walks over edges as long as faces come nearer.
+  /// point walks over edges as long as faces come clearly nearer.
   void follow(const CornerTable& table, const std::vector<Vec3>& positions);
 
   /// Indices of the points of a face, in order.

@@ -37,6 +37,28 @@ std::size_t count_and_check(const PointsOnFaces& points, const TriangleMesh& mes
   return count;
 }
 
+TEST_CASE("a point over a ridge, as near to both sides, stays with its face whatever is rounded") {
+  const std::uint64_t seed = GENERATE(1U, 2U, 3U);
+  CAPTURE(seed);
+  std::mt19937_64 engine(seed);
+  const TriangleMesh roof{
+      {{0, 0, 0}, {1, 0.1, 0.05}, {0.5, 1, -0.2}, {0.6, -1, -0.3}}, {{0, 1, 2}, {1, 0, 3}}, {}};
+  const CornerTable table(roof.triangles, roof.positions.size());
+  for (int i = 0; i < 100; ++i) {
+    const double along = uniform(engine, 0.1, 0.9);
+    const Vec3 point = along * roof.positions[1] + Vec3(0.0, 0.0, uniform(engine, 0.01, 0.1));
+    PointsOnFaces on_faces(roof, table, {point}, 0.5);
+    const std::size_t of_first = on_faces.of_face(0).size();
+    for (int step = 0; step < 20; ++step) {
+      std::vector<Vec3> rounded = roof.positions;
+      for (Vec3& p : rounded)
+        p += 1e-13 * Vec3{uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1)};
+      on_faces.follow(table, rounded);
+      REQUIRE(on_faces.of_face(0).size() == of_first);
+    }
+  }
+}
+
 TEST_CASE("points belong to the nearest face within reach and follow it when vertices move") {
   constexpr double kReach = 0.15;
   std::mt19937_64 engine(1);
