@@ -147,10 +147,11 @@ CASES = [
     Case('fandisk polygons', 'mesh/fandisk.obj', truth='mesh/fandisk.obj', cloud=False,
          bounds=CLEAN + CLOSED + GOOD_ANGLES + [
              Bound('genus', '==', 0), Bound('accuracy_mean', '<=', 0.0001, True)]),
-    # Its 106 holes are holes of the object, and stay; so does its genus.
+    # Its holes are holes of the object, and stay; so does its genus. Many touch in a vertex, so that their number says little:
+    # what is closed of them lies far from the truth, and tells in the accuracy.
     Case('elephant polygons', 'mesh/elephant-with-holes.off', truth='mesh/elephant-with-holes.off', cloud=False,
          bounds=CLEAN + GOOD_ANGLES + [
-             Bound('genus', '==', 3), Bound('boundary_loops', '==', 106), Bound('completeness_rms', '<=', 0.0002, True)]),
+             Bound('genus', '==', 3), Bound('accuracy_rms', '<=', 0.0005, True), Bound('completeness_rms', '<=', 0.0002, True)]),
     Case('club', 'seed/club_sampled_16586.xyz', truth='seed/club_mesh.ply',
          bounds=CLEAN + GOOD_ANGLES + [Bound('long_loops', '==', 1), Bound('cloud_within_05', '>=', 0.998),
                                        Bound('points_beyond', '==', 0)]),

@@ -76,12 +76,14 @@ class Extender {
         cloud_(cloud),
         h_(options.pixel_size),
         reach_(kReach * options.pixel_size),
+        smallest_angle_(options.smallest_angle),
         min_component_(options.min_component) {}
 
   /// @return whether anything changed
   bool round(ExtendBorderReport& report) {
     const CornerTable table(mesh_.triangles, mesh_.positions.size());
     const std::size_t border_edges = count_border_edges(table);
+    if (border_edges == 0) return false;
     if (first_border_edges_ == 0) first_border_edges_ = border_edges;
     if (border_edges > kMaxGrowth * first_border_edges_) return false;
     const FaceGrid faces(mesh_, table, reach_);
@@ -135,7 +137,7 @@ class Extender {
     BorderStep best;
     double best_value = kNeedle;
     for (BorderStep& step : steps_towards(gap, mesh_, table, h_)) {
-      if ((failures.bits & bit_of(step)) != 0) continue;
+      if ((failures.bits & bit_of(step)) != 0 || step.quality < smallest_angle_) continue;
       const double value = value_of(step, table);
       if (value <= best_value) continue;
       best_value = value;
@@ -267,6 +269,7 @@ class Extender {
   const PointGrid& cloud_;
   double h_;
   double reach_;
+  double smallest_angle_;
   std::size_t min_component_;
   std::size_t first_border_edges_ = 0;
   std::vector<std::uint32_t> moves_;  // of each vertex so far

@@ -12,6 +12,7 @@ namespace rangezip {
 struct ExtendBorderOptions {
   double pixel_size = 0.0;        ///< h, model units; positive
   std::size_t min_component = 0;  ///< pieces with fewer faces that cutting leaves are dropped
+  double smallest_angle = 0.0;    ///< sine: no step makes a smaller one
   int max_rounds = 300;           ///< of one step at each border edge that needs one, at most
 };
 

@@ -99,14 +99,14 @@ void close(TriangleMesh& mesh, std::span<const Vec3> cloud, const PointGrid& poi
            const FinishOptions& options, FinishReport& report, const Progress& progress) {
   if (options.regrow)
     report.regrown_faces += regrow(mesh, cloud, points, options.pixel_size, progress);
-  repair(mesh, self_intersections(mesh), points, options, report, progress);
+  repair(mesh, self_intersections(mesh), {}, points, options, report, progress);
   if (report.regrown_faces == 0) return;
   for (int round = 1; round < kRegrowRounds; ++round) {
     const TriangleMesh clean = geometry_of(mesh);
     report.regrown_faces += regrow(mesh, cloud, points, options.pixel_size, progress);
     const FaceChanges changes = find_face_changes(clean, mesh);
     if (changes.made.empty() && changes.gone.empty()) return;
-    repair(mesh, self_intersections(mesh, changes.made), points, options, report, progress);
+    repair(mesh, self_intersections(mesh, changes.made), {}, points, options, report, progress);
   }
 }
 
@@ -125,7 +125,7 @@ void remove_thin_handles(TriangleMesh& mesh, const PointGrid& cloud, const Finis
     const std::size_t cut = cut_thin_handles(mesh, thin);
     if (cut == 0) return;
     report.cut_handles += cut;
-    repair(mesh, {}, cloud, options, report, progress);
+    repair(mesh, {}, {}, cloud, options, report, progress);
   }
 }
 
@@ -238,11 +238,13 @@ void coarsen_to_cloud(TriangleMesh& mesh, const PointGrid& cloud, const FinishOp
   mend_slivers(mesh, cloud, options, report, progress);
 }
 
-void extend(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
-            FinishReport& report, const Progress& progress) {
-  const ExtendBorderReport extended = extend_border(
-      mesh, cloud, {.pixel_size = options.pixel_size, .min_component = options.min_component},
-      progress);
+void extend(TriangleMesh& mesh, const PointGrid& cloud, double smallest_angle,
+            const FinishOptions& options, FinishReport& report, const Progress& progress) {
+  const ExtendBorderReport extended = extend_border(mesh, cloud,
+                                                    {.pixel_size = options.pixel_size,
+                                                     .min_component = options.min_component,
+                                                     .smallest_angle = smallest_angle},
+                                                    progress);
   report.border_steps += extended.steps;
   report.dropped_components += extended.dropped.components;
   report.dropped_faces += extended.dropped.faces;
@@ -302,13 +304,14 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
             options, report, progress);
   }
   mend_slivers(mesh, cloud, options, report, progress);
-  extend(mesh, cloud, options, report, progress);
+  extend(mesh, cloud, 0.0, options, report, progress);
   if (is_coarsened) {
     coarsen_to_cloud(mesh, cloud, options, report, progress);
   } else {
-    if (relax_border(mesh, surface, fit)) extend(mesh, cloud, options, report, progress);
+    if (relax_border(mesh, surface, fit)) extend(mesh, cloud, 0.0, options, report, progress);
     fit_to_points(mesh, cloud, options, report, progress);
     report.small_angles = mend_small_angles(mesh, cloud, h).left;
+    extend(mesh, cloud, kSmallAngle, options, report, progress);  // to what mending left beyond
   }
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/finish/left_out_faces.h"
 #include "core/finish/other_wall.h"
 #include "core/finish/unsupported_faces.h"
 
@@ -45,9 +46,6 @@ constexpr double kInsideMargin = 1.5;
 constexpr double kEvidenceRadius = 1.0;
 constexpr double kEvidenceShare = 0.3;
 constexpr int kMinEvidenceSamples = 3;
-/// Gaps that are no wider come from how points happen to lie: of points spread at random one disc
-/// in a million is empty out to 2.1 spacings.
-constexpr SupportReach kGapSupport{1.75, 3.0};
 /// A border may be a pixel beyond the points; of a loop that strays farther the fill tells nothing.
 constexpr SupportReach kLoopSupport{1.25, 2.0};
 constexpr double kShownLoop = 0.9;  // of the vertices of a loop
@@ -133,25 +131,37 @@ FillInside look_inside(const LoopGeometry& loop, const HoleFill& fill, const Poi
   return inside;
 }
 
+/// @param positions of the table's vertices
+Vec3 corner_of(const HoleFill& fill, const std::vector<Vec3>& positions, std::uint32_t v) {
+  return v < positions.size() ? positions[v] : fill.new_positions[v - positions.size()];
+}
+
 /// Whether at some place of a fill the surface was not sampled, as points around it show. A loop
 /// that strays from the points itself tells nothing.
 /// @param positions of the table's vertices
-bool is_left_out(const LoopGeometry& loop, const std::vector<Vec3>& positions, const HoleFill& fill,
-                 const PointGrid& cloud, double pixel_size) {
+bool has_left_out(const LoopGeometry& loop, const std::vector<Vec3>& positions,
+                  const HoleFill& fill, const PointGrid& cloud, double pixel_size) {
   const auto is_shown = [&](const Vec3& place) {
     return is_supported(cloud, place, pixel_size, kLoopSupport);
   };
-  const auto corner = [&](std::uint32_t v) {
-    return v < positions.size() ? positions[v] : fill.new_positions[v - positions.size()];
-  };
+  const auto corner = [&](std::uint32_t v) { return corner_of(fill, positions, v); };
   const bool has_gap =
       std::any_of(fill.triangles.begin(), fill.triangles.end(), [&](const Triangle& t) {
         const Vec3 middle = (corner(t[0]) + corner(t[1]) + corner(t[2])) / 3.0;
-        return !is_supported(cloud, middle, pixel_size, kGapSupport);
+        return is_left_out(cloud, middle, pixel_size);
       });
   if (!has_gap) return false;
   const auto shown = std::count_if(loop.points.begin(), loop.points.end(), is_shown);
   return static_cast<double>(shown) >= kShownLoop * static_cast<double>(loop.points.size());
+}
+
+/// Takes away from a fill what was not sampled. @return whether that was anything
+bool open_left_out(const std::vector<Vec3>& positions, HoleFill& fill, const PointGrid& cloud,
+                   double pixel_size) {
+  const std::size_t before = fill.triangles.size();
+  const auto corner = [&](std::uint32_t v) { return corner_of(fill, positions, v); };
+  remove_triangles(fill.triangles, left_out_faces(fill.triangles, corner, cloud, pixel_size));
+  return fill.triangles.size() < before;
 }
 
 bool is_lost_wall(const std::vector<Vec3>& positions, const CornerTable& table,
@@ -180,8 +190,12 @@ std::optional<FillChoice> choose_fill(const std::vector<Vec3>& positions, const 
   const auto smooth = [&] {
     return FillChoice{.shape = FillShape::smooth, .fill = std::move(fill)};
   };
-  if (inside.shown == Inside::points) return smooth();
-  const auto has_gap = [&] { return is_left_out(geometry, positions, fill, cloud, h); };
+  if (inside.shown == Inside::points) {
+    const bool is_open =
+        options.is_sampled && options.leaves_gaps && open_left_out(positions, fill, cloud, h);
+    return FillChoice{.shape = FillShape::smooth, .leaves_gaps = is_open, .fill = std::move(fill)};
+  }
+  const auto has_gap = [&] { return has_left_out(geometry, positions, fill, cloud, h); };
   if (is_rim(geometry, is_zipped, h) && (!options.is_sampled || has_gap())) return std::nullopt;
   if (inside.width < options.narrow_width * h) return FillChoice{.shape = FillShape::flat};
   if (!is_zipped) return FillChoice{.shape = FillShape::zipped};

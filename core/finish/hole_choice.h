@@ -15,12 +15,14 @@ struct HoleChoiceOptions {
   double narrow_width = 3.0;        ///< in h, of cracks
   bool is_sampled = false;          ///< the cloud has points wherever the surface was seen
   double noise = 0.0;               ///< of these, standard deviation, model units
+  bool leaves_gaps = false;         ///< of what is closed because of its points, where none are
 };
 
 struct FillChoice {
   FillShape shape = FillShape::smooth;
-  bool is_wall = false;  ///< of something thin: each face around the loop that goes is a loss
-  HoleFill fill;         ///< if one of this shape had to be made for the choice
+  bool is_wall = false;      ///< of something thin: each face around the loop that goes is a loss
+  bool leaves_gaps = false;  ///< the fill has holes: loops to choose for in another round
+  HoleFill fill;             ///< if one of this shape had to be made for the choice
 };
 
 /// Whether a boundary loop is a gap in what was scanned, and then how to close it, or the border of
@@ -28,7 +30,9 @@ struct FillChoice {
 /// - a small loop (up to 12 h) is closed;
 /// - the outline of a sheet stays: a fill would fold back over the sheet; unless the cloud shows
 ///   that it is another wall (core/finish/other_wall.h);
-/// - a loop with points of the cloud inside is closed whatever its size;
+/// - a loop with points of the cloud inside is closed whatever its size, but, if asked for, for
+///   what was not sampled (core/finish/left_out_faces.h): a hole of the object may lie beside what
+///   no scan has reached;
 /// - a round rim (longer than 20 h) where the surface ends without leading into the hole, as at the
 ///   end of a tube, stays unless points are all over the fill;
 /// - a crack, nowhere wider than narrow_width, is closed whatever its length;

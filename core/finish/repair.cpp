@@ -50,18 +50,26 @@ void cut_pairs(TriangleMesh& mesh, const Pairs& pairs, FinishReport& report) {
   report.self_intersections_cut += before - mesh.triangles.size();
 }
 
-void drop_small(TriangleMesh& mesh, MeshPieces& pieces, const FinishOptions& options,
-                FinishReport& report) {
+/// With the loops that are not settled.
+MeshPieces pieces_to_repair(const TriangleMesh& mesh, const SettledLoops& settled) {
+  MeshPieces pieces = pieces_of(mesh);
+  std::erase_if(pieces.loops,
+                [&](const BoundaryLoop& loop) { return settled.contain(loop, pieces.table); });
+  return pieces;
+}
+
+void drop_small(TriangleMesh& mesh, MeshPieces& pieces, const SettledLoops& settled,
+                const FinishOptions& options, FinishReport& report) {
   const DroppedComponents dropped =
       drop_small_components(mesh, pieces.table, pieces.component, options.min_component);
-  if (dropped.faces > 0) pieces = pieces_of(mesh);
+  if (dropped.faces > 0) pieces = pieces_to_repair(mesh, settled);
   report.dropped_components += dropped.components;
   report.dropped_faces += dropped.faces;
 }
 
 /// Bridges whose faces cross anything are taken back.
-void bridge(TriangleMesh& mesh, MeshPieces& pieces, const PointGrid& cloud,
-            const FinishOptions& options, FinishReport& report) {
+void bridge(TriangleMesh& mesh, MeshPieces& pieces, const SettledLoops& settled,
+            const PointGrid& cloud, const FinishOptions& options, FinishReport& report) {
   const std::size_t before = mesh.triangles.size();
   std::size_t bridges = bridge_loops(mesh, pieces, cloud, options.pixel_size);
   if (bridges == 0) return;
@@ -74,7 +82,7 @@ void bridge(TriangleMesh& mesh, MeshPieces& pieces, const PointGrid& cloud,
     marked[first] = marked[first + 1] = 1;
   }
   remove_triangles(mesh.triangles, marked);
-  if (bridges > 0) pieces = pieces_of(mesh);
+  if (bridges > 0) pieces = pieces_to_repair(mesh, settled);
   report.bridged_loops += bridges;
 }
 
@@ -118,6 +126,7 @@ void mark_obstructed(const std::vector<std::uint32_t>& loop,
 struct ChosenFills {
   std::vector<FillRequest> requests;
   std::vector<std::uint8_t> is_wall;  ///< of each: FillChoice::is_wall
+  bool leave_gaps = false;            ///< any of them
 };
 
 /// Flags the vertices of loops around which faces are to go before the next round: of lost walls,
@@ -162,6 +171,7 @@ ChosenFills choose_fills(const TriangleMesh& mesh, const CornerTable& table,
   ChosenFills chosen;
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (!choices[i]) continue;
+    chosen.leave_gaps = chosen.leave_gaps || choices[i]->leaves_gaps;
     chosen.requests.push_back(
         {std::move(loops[i]), choices[i]->shape, std::move(choices[i]->fill)});
     chosen.is_wall.push_back(choices[i]->is_wall ? 1 : 0);
@@ -172,10 +182,10 @@ ChosenFills choose_fills(const TriangleMesh& mesh, const CornerTable& table,
 /// Joins loops around gaps in the walls of holes. @return of vertices: their loops are not to be
 /// filled in this round; empty: none
 std::vector<std::uint8_t> join(TriangleMesh& mesh, MeshPieces& pieces, int round,
-                               const PointGrid& cloud, const FinishOptions& options,
-                               FinishReport& report) {
+                               const SettledLoops& settled, const PointGrid& cloud,
+                               const FinishOptions& options, FinishReport& report) {
   JoinedLoops joined = join_loops(mesh, pieces, cloud, options.pixel_size);
-  if (joined.pairs > 0) pieces = pieces_of(mesh);
+  if (joined.pairs > 0) pieces = pieces_to_repair(mesh, settled);
   report.joined_loops += joined.pairs;
   if (round >= kRoundsToJoin) return {};
   return std::move(joined.is_hindered);
@@ -208,8 +218,8 @@ FillOutcome fill(TriangleMesh& mesh, MeshPieces pieces, int round,
   const bool any_zipped =
       std::any_of(chosen.requests.begin(), chosen.requests.end(),
                   [](const FillRequest& r) { return r.shape == FillShape::zipped; });
-  outcome.is_done =
-      hindered.empty() && fills.rejected.empty() && fills.zipped_pieces == 0 && !any_zipped;
+  outcome.is_done = hindered.empty() && fills.rejected.empty() && fills.zipped_pieces == 0 &&
+                    !any_zipped && !chosen.leave_gaps;
   return outcome;
 }
 
@@ -221,10 +231,11 @@ void widen(TriangleMesh& mesh, const std::vector<std::uint8_t>& vertices) {
 }
 
 /// The loops that are to be closed, of those that have been zipped before.
-std::vector<BoundaryLoop> loops_left(const TriangleMesh& mesh, const CornerTable& table,
+std::vector<BoundaryLoop> loops_left(const TriangleMesh& mesh, MeshPieces& pieces,
                                      const PointGrid& cloud, const HoleChoiceOptions& choice) {
   std::vector<BoundaryLoop> loops;
-  ChosenFills chosen = choose_fills(mesh, table, boundary_loops(table), true, cloud, choice);
+  ChosenFills chosen =
+      choose_fills(mesh, pieces.table, std::move(pieces.loops), true, cloud, choice);
   for (FillRequest& request : chosen.requests)
     loops.push_back(std::move(request.loop));
   return loops;
@@ -232,14 +243,14 @@ std::vector<BoundaryLoop> loops_left(const TriangleMesh& mesh, const CornerTable
 
 /// Closes ear by ear what all rounds have left, if that closes all of it: around what is left of a
 /// loop a ring of faces goes, which is a loss where a loop stays open.
-void fill_the_last(TriangleMesh& mesh, const PointGrid& cloud, const HoleChoiceOptions& choice,
-                   FinishReport& report) {
+void fill_the_last(TriangleMesh& mesh, const SettledLoops& settled, const PointGrid& cloud,
+                   const HoleChoiceOptions& choice, FinishReport& report) {
   const std::vector<Triangle> before = mesh.triangles;
   std::size_t faces = 0;
   for (int round = 0; round < kLastRounds; ++round) {
-    const CornerTable table(mesh.triangles, mesh.positions.size());
-    const EarFills fills =
-        fill_by_ears(mesh, table, loops_left(mesh, table, cloud, choice), choice.pixel_size);
+    MeshPieces pieces = pieces_to_repair(mesh, settled);
+    const std::vector<BoundaryLoop> loops = loops_left(mesh, pieces, cloud, choice);
+    const EarFills fills = fill_by_ears(mesh, pieces.table, loops, choice.pixel_size);
     faces += fills.faces;
     if (fills.left.empty()) {
       report.filled_faces += faces;
@@ -256,25 +267,28 @@ void fill_the_last(TriangleMesh& mesh, const PointGrid& cloud, const HoleChoiceO
 
 }  // namespace
 
-void repair(TriangleMesh& mesh, const Pairs& crossing, const PointGrid& cloud,
-            const FinishOptions& options, FinishReport& report, const Progress& progress) {
+void repair(TriangleMesh& mesh, const Pairs& crossing, const SettledLoops& settled,
+            const PointGrid& cloud, const FinishOptions& options, FinishReport& report,
+            const Progress& progress) {
   cut_pairs(mesh, crossing, report);
-  const HoleChoiceOptions choice = choice_options(cloud, options);
+  HoleChoiceOptions choice = choice_options(cloud, options);
   // From here on nothing crosses: faces only go, and what comes is checked.
   for (int round = 0; round < options.rounds; ++round) {
     progress.check_stop();
     clean_topology(mesh);
-    MeshPieces pieces = pieces_of(mesh);
-    bridge(mesh, pieces, cloud, options, report);
-    drop_small(mesh, pieces, options, report);
-    const std::vector<std::uint8_t> is_hindered = join(mesh, pieces, round, cloud, options, report);
+    MeshPieces pieces = pieces_to_repair(mesh, settled);
+    bridge(mesh, pieces, settled, cloud, options, report);
+    drop_small(mesh, pieces, settled, options, report);
+    choice.leaves_gaps = round + 1 < options.rounds;  // which the next one chooses for
+    const std::vector<std::uint8_t> is_hindered =
+        join(mesh, pieces, round, settled, cloud, options, report);
     const FillOutcome outcome =
         fill(mesh, std::move(pieces), round, is_hindered, cloud, choice, report);
     if (outcome.is_done) break;
     if (round + 1 < options.rounds) {
       widen(mesh, outcome.unfilled);
     } else {
-      fill_the_last(mesh, cloud, choice, report);
+      fill_the_last(mesh, settled, cloud, choice, report);
     }
   }
   remove_unused_vertices(mesh);

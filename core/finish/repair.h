@@ -7,6 +7,7 @@
 #include "core/base/progress.h"
 #include "core/finish/finish.h"
 #include "core/finish/point_grid.h"
+#include "core/finish/settled_loops.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace rangezip {
@@ -17,10 +18,11 @@ namespace rangezip {
 /// that closes all of it; else it stays open. The result is always oriented, manifold and free of
 /// self-intersections. Adds to the counts of `report`.
 /// @param crossing the pairs of faces that cross, self_intersections(mesh)
+/// @param settled border that stays: its loops are not bridged, joined or closed
 /// @param cloud evidence for holes (core/finish/hole_choice.h); may be empty
 void repair(TriangleMesh& mesh,
             const std::vector<std::pair<std::uint32_t, std::uint32_t>>& crossing,
-            const PointGrid& cloud, const FinishOptions& options, FinishReport& report,
-            const Progress& progress);
+            const SettledLoops& settled, const PointGrid& cloud, const FinishOptions& options,
+            FinishReport& report, const Progress& progress);
 
 }  // namespace rangezip

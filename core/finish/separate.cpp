@@ -20,7 +20,7 @@ bool separate(TriangleMesh& mesh, std::span<const std::uint32_t> changed, const 
   const UntangleReport untangled = untangle(mesh, changed);
   report.untangled_pairs += untangled.crossed;
   if (untangled.left.empty()) return false;
-  repair(mesh, untangled.left, cloud, options, report, progress);
+  repair(mesh, untangled.left, SettledLoops(mesh), cloud, options, report, progress);
   return true;
 }
 

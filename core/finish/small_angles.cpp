@@ -27,9 +27,8 @@ struct Stage {
   double border_way;  // in h, of a vertex of the border
   double beyond;      // in h: points so far beyond the border are none
 };
-constexpr double kNegligible = 1e-3;    ///< in h, as in extend_border.h
-constexpr double kSmallAngle = 0.1737;  ///< 10 degrees and the rounding of a file
-constexpr double kEnough = 0.25;        ///< 14 degrees
+constexpr double kNegligible = 1e-3;  ///< in h, as in extend_border.h
+constexpr double kEnough = 0.25;      ///< 14 degrees
 constexpr std::array kSmall{Stage{kSmallAngle, kEnough, 0.8, 0.5, kNegligible},
                             Stage{kSmallAngle, kEnough, 0.5, 0.5, kNegligible},
                             Stage{kSmallAngle, kEnough, 0.0, 0.5, 0.02},

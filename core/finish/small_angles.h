@@ -7,6 +7,9 @@
 
 namespace rangezip {
 
+/// As a sine: 10 degrees and the rounding of a file.
+inline constexpr double kSmallAngle = 0.1737;
+
 struct SmallAngleReport {
   std::size_t mended = 0;  ///< places where faces changed
   std::size_t left = 0;    ///< faces with an angle under 10 degrees

@@ -214,4 +214,18 @@ TEST_CASE("a border does not feather into a cloud that is no surface") {
   CHECK(self_intersections(mesh).empty());
 }
 
+TEST_CASE("no step makes an angle smaller than is asked for", "[finish]") {
+  const std::vector<Vec3> points = square_points(3);
+  const PointGrid cloud = grid_of(points);
+  TriangleMesh mesh = sheet(1.0 - 0.8 * kH);  // with right triangles: of 45 degrees
+  TriangleMesh without = mesh;
+  extend_border(without, cloud, {.pixel_size = kH});
+  REQUIRE(std::sin(testing::smallest_angle(without)) < 0.17);
+  const ExtendBorderReport report =
+      extend_border(mesh, cloud, {.pixel_size = kH, .smallest_angle = 0.17});
+  CHECK(report.steps > 0);
+  CHECK(std::sin(testing::smallest_angle(mesh)) >= 0.17 * (1.0 - 1e-12));
+  require_clean(mesh);
+}
+
 }  // namespace rangezip

@@ -1,8 +1,10 @@
 #include "core/finish/finish.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <stop_token>
 #include <utility>
@@ -237,6 +239,62 @@ TEST_CASE("a hole of a few pixels stays where the points around it leave it out,
   CHECK(report_mesh(finish(mesh, cloud, options).mesh).euler == 1);
   options.max_hole_perimeter = 30.0;
   CHECK(report_mesh(finish(mesh, cloud, options).mesh).euler == 2);
+}
+
+TEST_CASE("what no scan has reached is closed, but for a hole of the object in it") {
+  constexpr int kN = 40;
+  const double h = 2.0 / kN;
+  const auto method = GENERATE(FinishMethod::fast, FinishMethod::full);
+  TriangleMesh mesh = testing::sphere(kN);
+  testing::cut_where(mesh, [](const Vec3& p) { return p.z > 0.85; });
+  std::vector<Vec3> cloud = sphere_points(60000, 3);
+  const Vec3 middle = glm::normalize(Vec3(0.25, 0.0, 0.95));
+  std::erase_if(cloud, [&](const Vec3& p) { return glm::length(p - middle) < 4.0 * h; });
+  const MeshReport report = report_mesh(finish(mesh, cloud, options_for(kN, method)).mesh);
+  CHECK(report.euler == 1);
+  CHECK(report.boundary_loops == 1);
+  CHECK(report.longest_loop > 20.0 * h);  // around what was left out: 8 pi h
+  CHECK(report.longest_loop < 33.0 * h);
+}
+
+/// The same mesh with its vertices and faces in another order.
+TriangleMesh shuffled(const TriangleMesh& mesh, std::uint64_t seed) {
+  std::mt19937_64 engine(seed);
+  std::vector<std::uint32_t> place(mesh.positions.size());
+  std::iota(place.begin(), place.end(), 0U);
+  std::shuffle(place.begin(), place.end(), engine);
+  TriangleMesh result;
+  result.positions.resize(mesh.positions.size());
+  for (std::size_t v = 0; v < place.size(); ++v)
+    result.positions[place[v]] = mesh.positions[v];
+  for (const auto& [a, b, c] : mesh.triangles)
+    result.triangles.push_back({place[a], place[b], place[c]});
+  std::shuffle(result.triangles.begin(), result.triangles.end(), engine);
+  return result;
+}
+
+TEST_CASE("which holes stay does not depend on the order of vertices and faces") {
+  constexpr int kN = 48;
+  const double h = 2.0 / kN;
+  TriangleMesh mesh = testing::sphere(kN);
+  std::vector<Vec3> cloud = sphere_points(90000, 6);
+  std::mt19937_64 engine(7);
+  std::size_t holes = 0;
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 middle = testing::direction(engine);
+    const auto is_left_out = [&](const Vec3& p) { return glm::length(p - middle) < 5.0 * h; };
+    testing::cut_where(mesh, is_left_out);
+    std::erase_if(cloud, is_left_out);
+  }
+  const FinishOptions options = options_for(kN, FinishMethod::full);
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    CAPTURE(seed);
+    const FinishResult result = finish(shuffled(mesh, seed), cloud, options);
+    require_clean(result.mesh);
+    if (holes == 0) holes = result.report.open_loops;
+    CHECK(holes > 3);
+    CHECK(result.report.open_loops == holes);
+  }
 }
 
 TEST_CASE("points so sparse that discs of two pixels hold none show no hole") {
