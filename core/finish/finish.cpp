@@ -254,12 +254,14 @@ void extend(TriangleMesh& mesh, const PointGrid& cloud, double smallest_angle,
 double remesh_on_cloud(TriangleMesh& mesh, const PointGrid& cloud, const PointGrid& surface,
                        const RemeshOptions& options, FinishReport& report,
                        const Progress& progress) {
+  sort_along_curve(mesh);
   const RemeshReport remeshed = remesh(mesh, cloud, surface, options, progress);
   report.split_edges = remeshed.split_edges;
   report.collapsed_edges = remeshed.collapsed_edges;
   report.flipped_edges = remeshed.flipped_edges;
   report.flattened_spikes = remeshed.flattened_spikes;
   remove_unused_vertices(mesh);
+  sort_along_curve(mesh);
   return remeshed.edge;
 }
 

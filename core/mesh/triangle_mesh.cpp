@@ -2,8 +2,38 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "core/base/curve_order.h"
 
 namespace rangezip {
+namespace {
+
+template <class Value>
+std::vector<Value> in_order(const std::vector<Value>& values,
+                            const std::vector<std::uint32_t>& order) {
+  std::vector<Value> ordered;
+  ordered.reserve(values.size());
+  if (values.empty()) return ordered;
+  for (const std::uint32_t i : order)
+    ordered.push_back(values[i]);
+  return ordered;
+}
+
+void sort_by_first_vertex(std::vector<Triangle>& triangles) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> keys;
+  keys.reserve(triangles.size());
+  for (const auto& [a, b, c] : triangles)
+    keys.emplace_back(std::min({a, b, c}), static_cast<std::uint32_t>(keys.size()));
+  std::sort(keys.begin(), keys.end());
+  std::vector<Triangle> sorted;
+  sorted.reserve(triangles.size());
+  for (const auto& [first, face] : keys)
+    sorted.push_back(triangles[face]);
+  triangles = std::move(sorted);
+}
+
+}  // namespace
 
 Box bounds_of(const TriangleMesh& mesh) {
   Box bounds;
@@ -57,6 +87,20 @@ void remove_vertices(TriangleMesh& mesh, const std::vector<std::uint8_t>& marked
     for (std::uint32_t& corner : triangle)
       corner = new_index[corner];
   }
+}
+
+void sort_along_curve(TriangleMesh& mesh) {
+  const std::vector<std::uint32_t> order = order_along_curve(mesh.positions);
+  mesh.positions = in_order(mesh.positions, order);
+  mesh.sources = in_order(mesh.sources, order);
+  std::vector<std::uint32_t> place(order.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i)
+    place[order[i]] = i;
+  for (Triangle& triangle : mesh.triangles) {
+    for (std::uint32_t& corner : triangle)
+      corner = place[corner];
+  }
+  sort_by_first_vertex(mesh.triangles);
 }
 
 void remove_unused_vertices(TriangleMesh& mesh) {

@@ -29,5 +29,28 @@ TEST_CASE("what is removed goes, and what stays keeps its order and its sources"
   }
 }
 
+TEST_CASE("a mesh sorted along a curve is the same mesh", "[mesh]") {
+  TriangleMesh mesh;
+  for (const double x : {3.0, 1.0, 2.0, 0.0}) {
+    mesh.positions.emplace_back(x, 0.0, 0.0);
+    mesh.sources.push_back({.primitive = static_cast<PrimitiveId>(x)});
+  }
+  mesh.triangles = {{0, 2, 1}, {1, 2, 3}};
+  sort_along_curve(mesh);
+  for (std::uint32_t v = 0; v < 4; ++v) {
+    CHECK(mesh.positions[v].x == v);
+    CHECK(mesh.sources[v].primitive == v);
+  }
+  CHECK(mesh.triangles == std::vector<Triangle>{{1, 2, 0}, {3, 2, 1}});
+
+  mesh.sources.clear();  // not recorded: stays so
+  const TriangleMesh sorted = mesh;
+  sort_along_curve(mesh);
+  CHECK(mesh == sorted);
+  TriangleMesh none;
+  sort_along_curve(none);
+  CHECK(none.empty());
+}
+
 }  // namespace
 }  // namespace rangezip
