@@ -24,7 +24,7 @@ constexpr double kMostTurn = 0.5;
 constexpr double kSharpest = 0.5;     // edge that may arise
 constexpr double kTurnGain = 0.995;   // of the squared distances: equal ones would turn to and fro
 constexpr double kAngleGain = 0.05;   // sine: by so much better an angle is worth some distance
-constexpr double kTurnSlack = 0.004;  // of the reach: that distance
+constexpr double kTurnSlack = 0.004;  // of the reach: that distance, at first
 constexpr std::array kShares{1.0, 0.5, 0.25};  // of the way of a vertex, the first that may be
 constexpr double kHoldAlways = 0.001;          // in points: where there are none
 /// In points at each corner of a face: in what direction its points do not tell, its plane stays.
@@ -34,8 +34,9 @@ constexpr double kPlaneHold = 0.1;
 constexpr std::size_t kFewPoints = 4;
 constexpr double kFlat = 0.985;
 constexpr double kSmooth = 0.87;     // 30 degrees, from the normal of a vertex to its faces
-constexpr double kMoreHold = 1.65;   // in the next round, if angles are too small
 constexpr double kRelaxStep = 0.55;  // towards the middle of the faces, that is held on to
+constexpr double kMoreHold = 1.65;   // in the next round, if angles are too small
+constexpr double kMoreSlack = 2.0;   // the same
 constexpr std::size_t kPerBlock = 1024;
 
 /// The normal equations of the points on a face for how far its plane moves at each corner.
@@ -51,6 +52,7 @@ class Fitter {
       : positions_(mesh.positions),
         options_(options),
         hold_(options.hold),
+        slack_(kTurnSlack * options.reach),
         table_(mesh.triangles, mesh.positions.size()),
         points_(mesh, table_, std::move(points), options.reach) {}
 
@@ -68,7 +70,9 @@ class Fitter {
       move_vertices();
       is_median_met =
           options_.median_angle == 0.0 || median_of_smallest_angles() >= options_.median_angle;
-      if (!is_median_met) hold_ *= kMoreHold;
+      if (is_median_met) continue;
+      hold_ *= kMoreHold;
+      slack_ *= kMoreSlack;
     }
   }
   [[nodiscard]] std::vector<Triangle> triangles() const { return table_.triangles(); }
@@ -118,7 +122,7 @@ class Fitter {
         ++count;
       }
     }
-    const double slack = static_cast<double>(count) * squared_slack();
+    const double slack = static_cast<double>(count) * slack_ * slack_;
     const double gain = angle_after_flip(positions_, d) - angle_before_flip(positions_, d);
     if (gain > kAngleGain) {
       const DiamondAreas areas(positions_, d);
@@ -126,12 +130,6 @@ class Fitter {
       return is_told && after <= before + slack;
     }
     return after < kTurnGain * before - (gain < -kAngleGain ? slack : 0.0);
-  }
-
-  /// Of a point's distance.
-  [[nodiscard]] double squared_slack() const {
-    const double slack = kTurnSlack * options_.reach;
-    return slack * slack;
   }
 
   void sum_faces() {
@@ -285,7 +283,8 @@ class Fitter {
 
   std::vector<Vec3>& positions_;
   FitFacesOptions options_;
-  double hold_;  ///< that of this round
+  double hold_;   ///< that of this round
+  double slack_;  ///< of a point's distance, in this round, where angles grow; model units
   CornerTable table_;
   PointsOnFaces points_;
   std::vector<FaceSums> sums_;

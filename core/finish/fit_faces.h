@@ -16,7 +16,7 @@ struct FitFacesOptions {
   /// surface bends by more than its root, a tenth of a radian, over an edge, the points decide.
   double hold = 0.009;
   /// Sine of what the median of the faces' smallest angles is to be: 50.1 degrees. After a round in
-  /// which it is less vertices are held more. 0: as they are.
+  /// which it is less vertices are held more, and edges turn more freely. 0: as they are.
   double median_angle = 0.7672;
 };
 

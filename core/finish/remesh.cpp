@@ -33,6 +33,7 @@ constexpr double kMostScaling = 1.1;   // of the wanted length, in a round
 constexpr double kEvenLength = 0.99;   // of the edge of as many equilateral triangles
 constexpr std::array kProjections{1.5, 1.0};  // before the first round, with windows of
                                               // so many radii: the stitched mesh is rough
+constexpr int kValencePasses = 2;             // an edge that has turned makes others worth it
 constexpr int kClosingRounds = 2;
 constexpr int kAligningRounds = 2;
 constexpr int kSizingRounds = 4;  // later ones keep the relative lengths
@@ -67,7 +68,8 @@ class Remesher {
         if (is_coarse(round)) scale_ *= kFirstScale;
         report.split_edges += split_long_edges();
         report.collapsed_edges += collapse_short_edges();
-        report.flipped_edges += flip_for_valence(table_, positions_);
+        for (int pass = 0; pass < kValencePasses; ++pass)
+          report.flipped_edges += flip_for_valence(table_, positions_);
         if (is_coarse(round)) {
           scale_ /= kFirstScale;
         } else {
