@@ -35,6 +35,7 @@ constexpr std::size_t kAroundObstacle = 2;
 /// In h: loops up to this that cannot be closed otherwise are zipped.
 constexpr double kLongestZipped = 60.0;
 
+constexpr int kZipPasses = 2;               ///< of {zip what stays, close what that parts from it}
 constexpr int kLastRounds = 6;              ///< of {ears, widen what is left}
 constexpr std::size_t kNoisePoints = 2000;  ///< that tell it
 
@@ -159,6 +160,12 @@ HoleChoiceOptions choice_options(const PointGrid& cloud, const FinishOptions& op
   return choice;
 }
 
+VerifiedFillOptions fill_options(const PointGrid& cloud, const HoleChoiceOptions& choice) {
+  const double h = choice.pixel_size;
+  return {h, choice.narrow_width * h, kLongestZipped * h,
+          choice.is_sampled ? CloudEvidence{&cloud, h} : CloudEvidence{}};
+}
+
 /// Which loops are to be closed, and how.
 ChosenFills choose_fills(const TriangleMesh& mesh, const CornerTable& table,
                          std::vector<BoundaryLoop> loops, bool is_zipped, const PointGrid& cloud,
@@ -202,11 +209,8 @@ FillOutcome fill(TriangleMesh& mesh, MeshPieces pieces, int round,
   std::vector<BoundaryLoop> loops = std::move(pieces.loops);
   const std::vector<BoundaryLoop> hindered = hindered_among(loops, table, is_hindered);
   const ChosenFills chosen = choose_fills(mesh, table, std::move(loops), is_zipped, cloud, choice);
-  const double h = choice.pixel_size;
-  const VerifiedFillOptions fill_options{
-      h, choice.narrow_width * h, kLongestZipped * h,
-      choice.is_sampled ? CloudEvidence{&cloud, h} : CloudEvidence{}};
-  const VerifiedFills fills = fill_verified(mesh, table, chosen.requests, fill_options);
+  const VerifiedFills fills =
+      fill_verified(mesh, table, chosen.requests, fill_options(cloud, choice));
   report.filled_holes += fills.filled_holes;
   report.filled_faces += fills.filled_faces;
   FillOutcome outcome;
@@ -241,6 +245,21 @@ std::vector<BoundaryLoop> loops_left(const TriangleMesh& mesh, MeshPieces& piece
   return loops;
 }
 
+/// Zips what has stayed open as if it never had been: what was cut away around a loop, or is left
+/// of a fill, may be cracks that lead into a hole. What crosses something stays open.
+/// @return whether that changed anything
+bool zip_again(TriangleMesh& mesh, const SettledLoops& settled, const PointGrid& cloud,
+               const HoleChoiceOptions& choice, FinishReport& report) {
+  MeshPieces pieces = pieces_to_repair(mesh, settled);
+  ChosenFills chosen =
+      choose_fills(mesh, pieces.table, std::move(pieces.loops), false, cloud, choice);
+  std::erase_if(chosen.requests, [](const FillRequest& r) { return r.shape != FillShape::zipped; });
+  const VerifiedFills zipped =
+      fill_verified(mesh, pieces.table, chosen.requests, fill_options(cloud, choice));
+  report.filled_faces += zipped.filled_faces;
+  return zipped.zipped_pieces > 0;
+}
+
 /// Closes ear by ear what all rounds have left, if that closes all of it: around what is left of a
 /// loop a ring of faces goes, which is a loss where a loop stays open.
 void fill_the_last(TriangleMesh& mesh, const SettledLoops& settled, const PointGrid& cloud,
@@ -265,15 +284,11 @@ void fill_the_last(TriangleMesh& mesh, const SettledLoops& settled, const PointG
   mesh.triangles = before;
 }
 
-}  // namespace
-
-void repair(TriangleMesh& mesh, const Pairs& crossing, const SettledLoops& settled,
-            const PointGrid& cloud, const FinishOptions& options, FinishReport& report,
-            const Progress& progress) {
-  cut_pairs(mesh, crossing, report);
-  HoleChoiceOptions choice = choice_options(cloud, options);
-  // From here on nothing crosses: faces only go, and what comes is checked.
-  for (int round = 0; round < options.rounds; ++round) {
+/// @param first round; from 1 on loops count as zipped
+void close_in_rounds(TriangleMesh& mesh, int first, const SettledLoops& settled,
+                     const PointGrid& cloud, HoleChoiceOptions choice, const FinishOptions& options,
+                     FinishReport& report, const Progress& progress) {
+  for (int round = first; round < options.rounds; ++round) {
     progress.check_stop();
     clean_topology(mesh);
     MeshPieces pieces = pieces_to_repair(mesh, settled);
@@ -284,12 +299,27 @@ void repair(TriangleMesh& mesh, const Pairs& crossing, const SettledLoops& settl
         join(mesh, pieces, round, settled, cloud, options, report);
     const FillOutcome outcome =
         fill(mesh, std::move(pieces), round, is_hindered, cloud, choice, report);
-    if (outcome.is_done) break;
+    if (outcome.is_done) return;
     if (round + 1 < options.rounds) {
       widen(mesh, outcome.unfilled);
     } else {
       fill_the_last(mesh, settled, cloud, choice, report);
     }
+  }
+}
+
+}  // namespace
+
+void repair(TriangleMesh& mesh, const Pairs& crossing, const SettledLoops& settled,
+            const PointGrid& cloud, const FinishOptions& options, FinishReport& report,
+            const Progress& progress) {
+  cut_pairs(mesh, crossing, report);
+  const HoleChoiceOptions choice = choice_options(cloud, options);
+  // From here on nothing crosses: faces only go, and what comes is checked.
+  close_in_rounds(mesh, 0, settled, cloud, choice, options, report, progress);
+  for (int pass = 0; pass < kZipPasses; ++pass) {
+    if (!zip_again(mesh, settled, cloud, choice, report)) break;
+    close_in_rounds(mesh, 1, settled, cloud, choice, options, report, progress);
   }
   remove_unused_vertices(mesh);
 }

@@ -15,8 +15,9 @@ namespace rangezip {
 /// Rounds of {cut the faces that cross others, bridge cracks between pieces, close holes}. A fill
 /// or bridge that crosses anything is taken back and the hole widened by a ring of faces for the
 /// next round. What is open after the last one is closed ear by ear (core/finish/ear_fill.h), if
-/// that closes all of it; else it stays open. The result is always oriented, manifold and free of
-/// self-intersections. Adds to the counts of `report`.
+/// that closes all of it; else it stays open. Loops that stay are zipped once more where their
+/// sides are close, and the rounds go on with what that parts from them. The result is always
+/// oriented, manifold and free of self-intersections. Adds to the counts of `report`.
 /// @param crossing the pairs of faces that cross, self_intersections(mesh)
 /// @param settled border that stays: its loops are not bridged, joined or closed
 /// @param cloud evidence for holes (core/finish/hole_choice.h); may be empty
