@@ -245,19 +245,28 @@ std::vector<BoundaryLoop> loops_left(const TriangleMesh& mesh, MeshPieces& piece
   return loops;
 }
 
-/// Zips what has stayed open as if it never had been: what was cut away around a loop, or is left
-/// of a fill, may be cracks that lead into a hole. What crosses something stays open.
-/// @return whether that changed anything
-bool zip_again(TriangleMesh& mesh, const SettledLoops& settled, const PointGrid& cloud,
+/// Zips what has stayed open as if it never had been, and closes what that parts from it: what was
+/// cut away around a loop, or is left of a fill, may be cracks that lead into a hole. No more faces
+/// go: what crosses something stays open.
+void zip_again(TriangleMesh& mesh, const SettledLoops& settled, const PointGrid& cloud,
                const HoleChoiceOptions& choice, FinishReport& report) {
-  MeshPieces pieces = pieces_to_repair(mesh, settled);
-  ChosenFills chosen =
-      choose_fills(mesh, pieces.table, std::move(pieces.loops), false, cloud, choice);
-  std::erase_if(chosen.requests, [](const FillRequest& r) { return r.shape != FillShape::zipped; });
-  const VerifiedFills zipped =
-      fill_verified(mesh, pieces.table, chosen.requests, fill_options(cloud, choice));
-  report.filled_faces += zipped.filled_faces;
-  return zipped.zipped_pieces > 0;
+  const VerifiedFillOptions options = fill_options(cloud, choice);
+  const auto close = [&](bool is_zipped) {
+    MeshPieces pieces = pieces_to_repair(mesh, settled);
+    ChosenFills chosen =
+        choose_fills(mesh, pieces.table, std::move(pieces.loops), is_zipped, cloud, choice);
+    if (!is_zipped) {
+      std::erase_if(chosen.requests,
+                    [](const FillRequest& r) { return r.shape != FillShape::zipped; });
+    }
+    const VerifiedFills fills = fill_verified(mesh, pieces.table, chosen.requests, options);
+    report.filled_holes += fills.filled_holes;
+    report.filled_faces += fills.filled_faces;
+    clean_topology(mesh);
+    return fills.zipped_pieces > 0;
+  };
+  for (int pass = 0; pass < kZipPasses && close(false); ++pass)
+    close(true);
 }
 
 /// Closes ear by ear what all rounds have left, if that closes all of it: around what is left of a
@@ -284,11 +293,10 @@ void fill_the_last(TriangleMesh& mesh, const SettledLoops& settled, const PointG
   mesh.triangles = before;
 }
 
-/// @param first round; from 1 on loops count as zipped
-void close_in_rounds(TriangleMesh& mesh, int first, const SettledLoops& settled,
-                     const PointGrid& cloud, HoleChoiceOptions choice, const FinishOptions& options,
-                     FinishReport& report, const Progress& progress) {
-  for (int round = first; round < options.rounds; ++round) {
+void close_in_rounds(TriangleMesh& mesh, const SettledLoops& settled, const PointGrid& cloud,
+                     HoleChoiceOptions choice, const FinishOptions& options, FinishReport& report,
+                     const Progress& progress) {
+  for (int round = 0; round < options.rounds; ++round) {
     progress.check_stop();
     clean_topology(mesh);
     MeshPieces pieces = pieces_to_repair(mesh, settled);
@@ -316,11 +324,8 @@ void repair(TriangleMesh& mesh, const Pairs& crossing, const SettledLoops& settl
   cut_pairs(mesh, crossing, report);
   const HoleChoiceOptions choice = choice_options(cloud, options);
   // From here on nothing crosses: faces only go, and what comes is checked.
-  close_in_rounds(mesh, 0, settled, cloud, choice, options, report, progress);
-  for (int pass = 0; pass < kZipPasses; ++pass) {
-    if (!zip_again(mesh, settled, cloud, choice, report)) break;
-    close_in_rounds(mesh, 1, settled, cloud, choice, options, report, progress);
-  }
+  close_in_rounds(mesh, settled, cloud, choice, options, report, progress);
+  zip_again(mesh, settled, cloud, choice, report);
   remove_unused_vertices(mesh);
 }
 

@@ -32,8 +32,9 @@ constexpr double kEnough = 0.25;      ///< 14 degrees
 constexpr std::array kSmall{Stage{kSmallAngle, kEnough, 0.8, 0.5, kNegligible},
                             Stage{kSmallAngle, kEnough, 0.5, 0.5, kNegligible},
                             Stage{kSmallAngle, kEnough, 0.0, 0.5, 0.02},
-                            Stage{kSmallAngle, kEnough, 0.0, 0.5, 0.5}};
-constexpr std::array kMedium{Stage{0.5, 0.52, 0.97, 0.1, kNegligible}};  ///< 30 and 31 degrees
+                            Stage{kSmallAngle, kEnough, 0.0, 0.5, 0.5},
+                            Stage{kSmallAngle, kEnough, 0.0, 0.5, 1.0}};  // all within the reach
+constexpr std::array kMedium{Stage{0.5, 0.52, 0.97, 0.1, kNegligible}};   ///< 30 and 31 degrees
 constexpr double kFew =
     0.05;                   ///< of all faces: more with an angle under 30 are what the mesh is like
 constexpr int kRounds = 8;  ///< of each stage

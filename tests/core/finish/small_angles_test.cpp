@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/finish/border_gaps.h"
+#include "core/finish/extend_border.h"
 #include "core/mesh/mesh_report.h"
 #include "core/mesh/self_intersection.h"
 #include "tests/core/finish/shapes.h"
@@ -109,13 +110,16 @@ TriangleMesh sheet_with_needle(int i) {
   return mesh;
 }
 
-TEST_CASE("a needle out to a far point of the cloud does not give the point up") {
+TEST_CASE(
+    "of a needle out to a far point of the cloud a mesh is left that can step out to it again") {
   for (int i = 1; i <= 20; ++i) {
     TriangleMesh mesh = sheet_with_needle(i);
     const PointGrid cloud = grid_of({mesh.positions.back()});
     REQUIRE(!has_gap(mesh, cloud));
-    mend_small_angles(mesh, cloud, kH);
+    REQUIRE(mend_small_angles(mesh, cloud, kH).left == 0);
+    extend_border(mesh, cloud, {.pixel_size = kH, .smallest_angle = kSmallAngle});
     REQUIRE(!has_gap(mesh, cloud));
+    REQUIRE(testing::smallest_angle(mesh) > kTenDegrees - 0.002);
   }
 }
 
