@@ -51,42 +51,6 @@ void cut_pairs(TriangleMesh& mesh, const Pairs& pairs, FinishReport& report) {
   report.self_intersections_cut += before - mesh.triangles.size();
 }
 
-/// With the loops that are not settled.
-MeshPieces pieces_to_repair(const TriangleMesh& mesh, const SettledLoops& settled) {
-  MeshPieces pieces = pieces_of(mesh);
-  std::erase_if(pieces.loops,
-                [&](const BoundaryLoop& loop) { return settled.contain(loop, pieces.table); });
-  return pieces;
-}
-
-void drop_small(TriangleMesh& mesh, MeshPieces& pieces, const SettledLoops& settled,
-                const FinishOptions& options, FinishReport& report) {
-  const DroppedComponents dropped =
-      drop_small_components(mesh, pieces.table, pieces.component, options.min_component);
-  if (dropped.faces > 0) pieces = pieces_to_repair(mesh, settled);
-  report.dropped_components += dropped.components;
-  report.dropped_faces += dropped.faces;
-}
-
-/// Bridges whose faces cross anything are taken back.
-void bridge(TriangleMesh& mesh, MeshPieces& pieces, const SettledLoops& settled,
-            const PointGrid& cloud, const FinishOptions& options, FinishReport& report) {
-  const std::size_t before = mesh.triangles.size();
-  std::size_t bridges = bridge_loops(mesh, pieces, cloud, options.pixel_size);
-  if (bridges == 0) return;
-  std::vector<std::uint32_t> added(mesh.triangles.size() - before);
-  std::iota(added.begin(), added.end(), static_cast<std::uint32_t>(before));
-  std::vector<std::uint8_t> marked(mesh.triangles.size(), 0);
-  for (const auto& [i, j] : self_intersections(mesh, added)) {
-    const std::size_t first = before + (j - before) / 2 * 2;  // a bridge has two faces
-    if (marked[first] == 0) --bridges;
-    marked[first] = marked[first + 1] = 1;
-  }
-  remove_triangles(mesh.triangles, marked);
-  if (bridges > 0) pieces = pieces_to_repair(mesh, settled);
-  report.bridged_loops += bridges;
-}
-
 struct FillOutcome {
   bool is_done = true;                 ///< nothing to do in another round
   std::vector<std::uint8_t> unfilled;  ///< flags of vertices of loops that could not be filled
@@ -186,47 +150,6 @@ ChosenFills choose_fills(const TriangleMesh& mesh, const CornerTable& table,
   return chosen;
 }
 
-/// Joins loops around gaps in the walls of holes. @return of vertices: their loops are not to be
-/// filled in this round; empty: none
-std::vector<std::uint8_t> join(TriangleMesh& mesh, MeshPieces& pieces, int round,
-                               const SettledLoops& settled, const PointGrid& cloud,
-                               const FinishOptions& options, FinishReport& report) {
-  JoinedLoops joined = join_loops(mesh, pieces, cloud, options.pixel_size);
-  if (joined.pairs > 0) pieces = pieces_to_repair(mesh, settled);
-  report.joined_loops += joined.pairs;
-  if (round >= kRoundsToJoin) return {};
-  return std::move(joined.is_hindered);
-}
-
-/// @param pieces of the mesh, as it is before
-/// @param round the first is 0
-/// @param is_hindered of vertices: their loops are not filled in this round; empty: none
-FillOutcome fill(TriangleMesh& mesh, MeshPieces pieces, int round,
-                 const std::vector<std::uint8_t>& is_hindered, const PointGrid& cloud,
-                 const HoleChoiceOptions& choice, FinishReport& report) {
-  const bool is_zipped = round > 0;
-  const CornerTable& table = pieces.table;
-  std::vector<BoundaryLoop> loops = std::move(pieces.loops);
-  const std::vector<BoundaryLoop> hindered = hindered_among(loops, table, is_hindered);
-  const ChosenFills chosen = choose_fills(mesh, table, std::move(loops), is_zipped, cloud, choice);
-  const VerifiedFills fills =
-      fill_verified(mesh, table, chosen.requests, fill_options(cloud, choice));
-  report.filled_holes += fills.filled_holes;
-  report.filled_faces += fills.filled_faces;
-  FillOutcome outcome;
-  outcome.unfilled = unfilled_vertices(mesh, table, chosen, fills, round < kGentleRounds);
-  for (const BoundaryLoop& loop : hindered) {
-    for (const std::uint32_t v : vertices_of(loop, table))
-      outcome.unfilled[v] = 1;
-  }
-  const bool any_zipped =
-      std::any_of(chosen.requests.begin(), chosen.requests.end(),
-                  [](const FillRequest& r) { return r.shape == FillShape::zipped; });
-  outcome.is_done = hindered.empty() && fills.rejected.empty() && fills.zipped_pieces == 0 &&
-                    !any_zipped && !chosen.leave_gaps;
-  return outcome;
-}
-
 /// Drops the faces around marked vertices.
 void widen(TriangleMesh& mesh, const std::vector<std::uint8_t>& vertices) {
   std::erase_if(mesh.triangles, [&](const Triangle& t) {
@@ -234,87 +157,185 @@ void widen(TriangleMesh& mesh, const std::vector<std::uint8_t>& vertices) {
   });
 }
 
-/// The loops that are to be closed, of those that have been zipped before.
-std::vector<BoundaryLoop> loops_left(const TriangleMesh& mesh, MeshPieces& pieces,
-                                     const PointGrid& cloud, const HoleChoiceOptions& choice) {
-  std::vector<BoundaryLoop> loops;
-  ChosenFills chosen =
-      choose_fills(mesh, pieces.table, std::move(pieces.loops), true, cloud, choice);
-  for (FillRequest& request : chosen.requests)
-    loops.push_back(std::move(request.loop));
-  return loops;
-}
+/// What the steps of a repair share.
+class Repairer {
+ public:
+  Repairer(TriangleMesh& mesh, const SettledLoops& settled, const PointGrid& cloud,
+           const FinishOptions& options, FinishReport& report)
+      : mesh_(mesh),
+        settled_(settled),
+        cloud_(cloud),
+        options_(options),
+        choice_(choice_options(cloud, options)),
+        fill_options_(fill_options(cloud, choice_)),
+        report_(report) {}
 
-/// Zips what has stayed open as if it never had been, and closes what that parts from it: what was
-/// cut away around a loop, or is left of a fill, may be cracks that lead into a hole. No more faces
-/// go: what crosses something stays open.
-void zip_again(TriangleMesh& mesh, const SettledLoops& settled, const PointGrid& cloud,
-               const HoleChoiceOptions& choice, FinishReport& report) {
-  const VerifiedFillOptions options = fill_options(cloud, choice);
-  const auto close = [&](bool is_zipped) {
-    MeshPieces pieces = pieces_to_repair(mesh, settled);
+  void run(const Progress& progress) {
+    close_in_rounds(progress);
+    zip_again();
+    remove_unused_vertices(mesh_);
+  }
+
+ private:
+  void close_in_rounds(const Progress& progress) {
+    for (int round = 0; round < options_.rounds; ++round) {
+      progress.check_stop();
+      clean_topology(mesh_);
+      MeshPieces pieces = look_at_pieces();
+      bridge(pieces);
+      drop_small(pieces);
+      const bool is_last = round + 1 == options_.rounds;
+      choice_.leaves_gaps = !is_last;  // which the next one chooses for
+      const std::vector<std::uint8_t> is_hindered = join(pieces, round);
+      const FillOutcome outcome = fill(std::move(pieces), round, is_hindered);
+      if (outcome.is_done) return;
+      if (is_last) {
+        fill_the_last();
+      } else {
+        widen(mesh_, outcome.unfilled);
+      }
+    }
+  }
+
+  /// With the loops that are not settled.
+  [[nodiscard]] MeshPieces look_at_pieces() const {
+    MeshPieces pieces = pieces_of(mesh_);
+    std::erase_if(pieces.loops,
+                  [&](const BoundaryLoop& loop) { return settled_.contain(loop, pieces.table); });
+    return pieces;
+  }
+
+  /// Bridges whose faces cross anything are taken back.
+  void bridge(MeshPieces& pieces) {
+    const std::size_t before = mesh_.triangles.size();
+    std::size_t bridges = bridge_loops(mesh_, pieces, cloud_, options_.pixel_size);
+    if (bridges == 0) return;
+    std::vector<std::uint32_t> added(mesh_.triangles.size() - before);
+    std::iota(added.begin(), added.end(), static_cast<std::uint32_t>(before));
+    std::vector<std::uint8_t> marked(mesh_.triangles.size(), 0);
+    for (const auto& [i, j] : self_intersections(mesh_, added)) {
+      const std::size_t first = before + (j - before) / 2 * 2;  // a bridge has two faces
+      if (marked[first] == 0) --bridges;
+      marked[first] = marked[first + 1] = 1;
+    }
+    remove_triangles(mesh_.triangles, marked);
+    if (bridges > 0) pieces = look_at_pieces();
+    report_.bridged_loops += bridges;
+  }
+
+  void drop_small(MeshPieces& pieces) {
+    const DroppedComponents dropped =
+        drop_small_components(mesh_, pieces.table, pieces.component, options_.min_component);
+    if (dropped.faces > 0) pieces = look_at_pieces();
+    report_.dropped_components += dropped.components;
+    report_.dropped_faces += dropped.faces;
+  }
+
+  /// Joins loops around gaps in the walls of holes. @return of vertices: their loops are not to be
+  /// filled in this round; empty: none
+  std::vector<std::uint8_t> join(MeshPieces& pieces, int round) {
+    JoinedLoops joined = join_loops(mesh_, pieces, cloud_, options_.pixel_size);
+    if (joined.pairs > 0) pieces = look_at_pieces();
+    report_.joined_loops += joined.pairs;
+    if (round >= kRoundsToJoin) return {};
+    return std::move(joined.is_hindered);
+  }
+
+  /// @param is_hindered of vertices: their loops are not filled in this round; empty: none
+  FillOutcome fill(MeshPieces pieces, int round, const std::vector<std::uint8_t>& is_hindered) {
+    const CornerTable& table = pieces.table;
+    std::vector<BoundaryLoop> loops = std::move(pieces.loops);
+    const std::vector<BoundaryLoop> hindered = hindered_among(loops, table, is_hindered);
+    const ChosenFills chosen =
+        choose_fills(mesh_, table, std::move(loops), round > 0, cloud_, choice_);
+    const VerifiedFills fills = make(chosen, table);
+    FillOutcome outcome;
+    outcome.unfilled = unfilled_vertices(mesh_, table, chosen, fills, round < kGentleRounds);
+    for (const BoundaryLoop& loop : hindered) {
+      for (const std::uint32_t v : vertices_of(loop, table))
+        outcome.unfilled[v] = 1;
+    }
+    const bool any_zipped =
+        std::any_of(chosen.requests.begin(), chosen.requests.end(),
+                    [](const FillRequest& r) { return r.shape == FillShape::zipped; });
+    outcome.is_done = hindered.empty() && fills.rejected.empty() && fills.zipped_pieces == 0 &&
+                      !any_zipped && !chosen.leave_gaps;
+    return outcome;
+  }
+
+  VerifiedFills make(const ChosenFills& chosen, const CornerTable& table) {
+    VerifiedFills fills = fill_verified(mesh_, table, chosen.requests, fill_options_);
+    report_.filled_holes += fills.filled_holes;
+    report_.filled_faces += fills.filled_faces;
+    return fills;
+  }
+
+  /// Closes ear by ear what all rounds have left, if that closes all of it: around what is left of
+  /// a loop a ring of faces goes, which is a loss where a loop stays open.
+  void fill_the_last() {
+    const std::vector<Triangle> before = mesh_.triangles;
+    std::size_t faces = 0;
+    for (int round = 0; round < kLastRounds; ++round) {
+      MeshPieces pieces = look_at_pieces();
+      const std::vector<BoundaryLoop> loops = loops_to_close(pieces);
+      const EarFills fills = fill_by_ears(mesh_, pieces.table, loops, options_.pixel_size);
+      faces += fills.faces;
+      if (fills.left.empty()) {
+        report_.filled_faces += faces;
+        return;
+      }
+      std::vector<std::uint8_t> unfilled(mesh_.positions.size(), 0);
+      for (const std::uint32_t v : fills.left)
+        unfilled[v] = 1;
+      widen(mesh_, unfilled);
+      clean_topology(mesh_);
+    }
+    mesh_.triangles = before;
+  }
+
+  /// Of those that have been zipped before.
+  [[nodiscard]] std::vector<BoundaryLoop> loops_to_close(MeshPieces& pieces) const {
+    std::vector<BoundaryLoop> loops;
     ChosenFills chosen =
-        choose_fills(mesh, pieces.table, std::move(pieces.loops), is_zipped, cloud, choice);
-    if (!is_zipped) {
+        choose_fills(mesh_, pieces.table, std::move(pieces.loops), true, cloud_, choice_);
+    for (FillRequest& request : chosen.requests)
+      loops.push_back(std::move(request.loop));
+    return loops;
+  }
+
+  /// Zips what has stayed open as if it never had been, and closes what that parts from it: what
+  /// was cut away around a loop, or is left of a fill, may be cracks that lead into a hole. No more
+  /// faces go: what crosses something stays open.
+  void zip_again() {
+    choice_.leaves_gaps = false;
+    for (int pass = 0; pass < kZipPasses && close_loops(false); ++pass)
+      close_loops(true);
+  }
+
+  /// @param are_zipped whether all loops are to be closed; else they are only zipped
+  /// @return whether any was zipped
+  bool close_loops(bool are_zipped) {
+    MeshPieces pieces = look_at_pieces();
+    if (pieces.loops.empty()) return false;
+    ChosenFills chosen =
+        choose_fills(mesh_, pieces.table, std::move(pieces.loops), are_zipped, cloud_, choice_);
+    if (!are_zipped) {
       std::erase_if(chosen.requests,
                     [](const FillRequest& r) { return r.shape != FillShape::zipped; });
     }
-    const VerifiedFills fills = fill_verified(mesh, pieces.table, chosen.requests, options);
-    report.filled_holes += fills.filled_holes;
-    report.filled_faces += fills.filled_faces;
-    clean_topology(mesh);
+    const VerifiedFills fills = make(chosen, pieces.table);
+    clean_topology(mesh_);
     return fills.zipped_pieces > 0;
-  };
-  for (int pass = 0; pass < kZipPasses && close(false); ++pass)
-    close(true);
-}
-
-/// Closes ear by ear what all rounds have left, if that closes all of it: around what is left of a
-/// loop a ring of faces goes, which is a loss where a loop stays open.
-void fill_the_last(TriangleMesh& mesh, const SettledLoops& settled, const PointGrid& cloud,
-                   const HoleChoiceOptions& choice, FinishReport& report) {
-  const std::vector<Triangle> before = mesh.triangles;
-  std::size_t faces = 0;
-  for (int round = 0; round < kLastRounds; ++round) {
-    MeshPieces pieces = pieces_to_repair(mesh, settled);
-    const std::vector<BoundaryLoop> loops = loops_left(mesh, pieces, cloud, choice);
-    const EarFills fills = fill_by_ears(mesh, pieces.table, loops, choice.pixel_size);
-    faces += fills.faces;
-    if (fills.left.empty()) {
-      report.filled_faces += faces;
-      return;
-    }
-    std::vector<std::uint8_t> unfilled(mesh.positions.size(), 0);
-    for (const std::uint32_t v : fills.left)
-      unfilled[v] = 1;
-    widen(mesh, unfilled);
-    clean_topology(mesh);
   }
-  mesh.triangles = before;
-}
 
-void close_in_rounds(TriangleMesh& mesh, const SettledLoops& settled, const PointGrid& cloud,
-                     HoleChoiceOptions choice, const FinishOptions& options, FinishReport& report,
-                     const Progress& progress) {
-  for (int round = 0; round < options.rounds; ++round) {
-    progress.check_stop();
-    clean_topology(mesh);
-    MeshPieces pieces = pieces_to_repair(mesh, settled);
-    bridge(mesh, pieces, settled, cloud, options, report);
-    drop_small(mesh, pieces, settled, options, report);
-    choice.leaves_gaps = round + 1 < options.rounds;  // which the next one chooses for
-    const std::vector<std::uint8_t> is_hindered =
-        join(mesh, pieces, round, settled, cloud, options, report);
-    const FillOutcome outcome =
-        fill(mesh, std::move(pieces), round, is_hindered, cloud, choice, report);
-    if (outcome.is_done) return;
-    if (round + 1 < options.rounds) {
-      widen(mesh, outcome.unfilled);
-    } else {
-      fill_the_last(mesh, settled, cloud, choice, report);
-    }
-  }
-}
+  TriangleMesh& mesh_;
+  const SettledLoops& settled_;
+  const PointGrid& cloud_;
+  const FinishOptions& options_;
+  HoleChoiceOptions choice_;
+  VerifiedFillOptions fill_options_;
+  FinishReport& report_;
+};
 
 }  // namespace
 
@@ -322,11 +343,8 @@ void repair(TriangleMesh& mesh, const Pairs& crossing, const SettledLoops& settl
             const PointGrid& cloud, const FinishOptions& options, FinishReport& report,
             const Progress& progress) {
   cut_pairs(mesh, crossing, report);
-  const HoleChoiceOptions choice = choice_options(cloud, options);
   // From here on nothing crosses: faces only go, and what comes is checked.
-  close_in_rounds(mesh, settled, cloud, choice, options, report, progress);
-  zip_again(mesh, settled, cloud, choice, report);
-  remove_unused_vertices(mesh);
+  Repairer(mesh, settled, cloud, options, report).run(progress);
 }
 
 }  // namespace rangezip
