@@ -95,8 +95,8 @@ Box region_of(const TriangleMesh& mesh, double margin) {
 
 /// Grows over what no scan has reached, and closes what is left open. Around what cannot be closed
 /// faces go: there it grows again.
-void close(TriangleMesh& mesh, std::span<const Vec3> cloud, const PointGrid& points,
-           const FinishOptions& options, FinishReport& report, const Progress& progress) {
+void grow_and_close(TriangleMesh& mesh, std::span<const Vec3> cloud, const PointGrid& points,
+                    const FinishOptions& options, FinishReport& report, const Progress& progress) {
   if (options.regrow)
     report.regrown_faces += regrow(mesh, cloud, points, options.pixel_size, progress);
   repair(mesh, self_intersections(mesh), {}, points, options, report, progress);
@@ -329,7 +329,8 @@ FinishResult finish(TriangleMesh mesh, std::span<const Vec3> cloud, const Finish
   PointGrid points(cloud, region_of(mesh, kRegionMargin * h), kPointCell * h);
   clean_topology(mesh);
   result.report.turned_pieces = orient_pieces(mesh, h);
-  close(mesh, cloud, points, options, result.report, progress);
+  grow_and_close(mesh, cloud, points, options, result.report, progress);
+  zip_open_loops(mesh, points, options, result.report);
   remove_thin_handles(mesh, points, options, result.report, progress);
   if (options.method == FinishMethod::full && !mesh.empty()) {
     if (options.gap == 0.0) tell_sides(points, mesh, h);  // contours are too far apart for that

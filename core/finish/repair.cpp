@@ -170,13 +170,6 @@ class Repairer {
         fill_options_(fill_options(cloud, choice_)),
         report_(report) {}
 
-  void run(const Progress& progress) {
-    close_in_rounds(progress);
-    zip_again();
-    remove_unused_vertices(mesh_);
-  }
-
- private:
   void close_in_rounds(const Progress& progress) {
     for (int round = 0; round < options_.rounds; ++round) {
       progress.check_stop();
@@ -197,6 +190,12 @@ class Repairer {
     }
   }
 
+  void zip_again() {
+    for (int pass = 0; pass < kZipPasses && close_loops(false); ++pass)
+      close_loops(true);
+  }
+
+ private:
   /// With the loops that are not settled.
   [[nodiscard]] MeshPieces look_at_pieces() const {
     MeshPieces pieces = pieces_of(mesh_);
@@ -303,15 +302,6 @@ class Repairer {
     return loops;
   }
 
-  /// Zips what has stayed open as if it never had been, and closes what that parts from it: what
-  /// was cut away around a loop, or is left of a fill, may be cracks that lead into a hole. No more
-  /// faces go: what crosses something stays open.
-  void zip_again() {
-    choice_.leaves_gaps = false;
-    for (int pass = 0; pass < kZipPasses && close_loops(false); ++pass)
-      close_loops(true);
-  }
-
   /// @param are_zipped whether all loops are to be closed; else they are only zipped
   /// @return whether any was zipped
   bool close_loops(bool are_zipped) {
@@ -344,7 +334,15 @@ void repair(TriangleMesh& mesh, const Pairs& crossing, const SettledLoops& settl
             const Progress& progress) {
   cut_pairs(mesh, crossing, report);
   // From here on nothing crosses: faces only go, and what comes is checked.
-  Repairer(mesh, settled, cloud, options, report).run(progress);
+  Repairer(mesh, settled, cloud, options, report).close_in_rounds(progress);
+  remove_unused_vertices(mesh);
+}
+
+void zip_open_loops(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
+                    FinishReport& report) {
+  const SettledLoops none;
+  Repairer(mesh, none, cloud, options, report).zip_again();
+  remove_unused_vertices(mesh);
 }
 
 }  // namespace rangezip

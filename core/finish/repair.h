@@ -15,9 +15,8 @@ namespace rangezip {
 /// Rounds of {cut the faces that cross others, bridge cracks between pieces, close holes}. A fill
 /// or bridge that crosses anything is taken back and the hole widened by a ring of faces for the
 /// next round. What is open after the last one is closed ear by ear (core/finish/ear_fill.h), if
-/// that closes all of it; else it stays open. Loops that stay are zipped once more where their
-/// sides are close, and the rounds go on with what that parts from them. The result is always
-/// oriented, manifold and free of self-intersections. Adds to the counts of `report`.
+/// that closes all of it; else it stays open. The result is always oriented, manifold and free of
+/// self-intersections. Adds to the counts of `report`.
 /// @param crossing the pairs of faces that cross, self_intersections(mesh)
 /// @param settled border that stays: its loops are not bridged, joined or closed
 /// @param cloud evidence for holes (core/finish/hole_choice.h); may be empty
@@ -25,5 +24,11 @@ void repair(TriangleMesh& mesh,
             const std::vector<std::pair<std::uint32_t, std::uint32_t>>& crossing,
             const SettledLoops& settled, const PointGrid& cloud, const FinishOptions& options,
             FinishReport& report, const Progress& progress);
+
+/// Zips the loops that a repair has left open, and closes what that parts from them: what was cut
+/// away around a loop, or is left of a fill, may be cracks that lead into a hole. No face goes:
+/// what would cross something stays open. @pre as repair() leaves a mesh
+void zip_open_loops(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
+                    FinishReport& report);
 
 }  // namespace rangezip
