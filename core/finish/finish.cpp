@@ -330,8 +330,8 @@ FinishResult finish(TriangleMesh mesh, std::span<const Vec3> cloud, const Finish
   clean_topology(mesh);
   result.report.turned_pieces = orient_pieces(mesh, h);
   grow_and_close(mesh, cloud, points, options, result.report, progress);
-  zip_open_loops(mesh, points, options, result.report);
   remove_thin_handles(mesh, points, options, result.report, progress);
+  zip_open_loops(mesh, points, options, result.report);
   if (options.method == FinishMethod::full && !mesh.empty()) {
     if (options.gap == 0.0) tell_sides(points, mesh, h);  // contours are too far apart for that
     improve(mesh, points, options, result.report, progress);
