@@ -170,6 +170,7 @@ class Repairer {
         fill_options_(fill_options(cloud, choice_)),
         report_(report) {}
 
+  /// What repair() does once nothing crosses.
   void close_in_rounds(const Progress& progress) {
     for (int round = 0; round < options_.rounds; ++round) {
       progress.check_stop();
@@ -190,6 +191,7 @@ class Repairer {
     }
   }
 
+  /// What zip_open_loops() does.
   void zip_again() {
     for (int pass = 0; pass < kZipPasses && close_loops(false); ++pass)
       close_loops(true);
@@ -247,7 +249,7 @@ class Repairer {
     const std::vector<BoundaryLoop> hindered = hindered_among(loops, table, is_hindered);
     const ChosenFills chosen =
         choose_fills(mesh_, table, std::move(loops), round > 0, cloud_, choice_);
-    const VerifiedFills fills = make(chosen, table);
+    const VerifiedFills fills = make(chosen.requests, table);
     FillOutcome outcome;
     outcome.unfilled = unfilled_vertices(mesh_, table, chosen, fills, round < kGentleRounds);
     for (const BoundaryLoop& loop : hindered) {
@@ -262,8 +264,8 @@ class Repairer {
     return outcome;
   }
 
-  VerifiedFills make(const ChosenFills& chosen, const CornerTable& table) {
-    VerifiedFills fills = fill_verified(mesh_, table, chosen.requests, fill_options_);
+  VerifiedFills make(const std::vector<FillRequest>& requests, const CornerTable& table) {
+    VerifiedFills fills = fill_verified(mesh_, table, requests, fill_options_);
     report_.filled_holes += fills.filled_holes;
     report_.filled_faces += fills.filled_faces;
     return fills;
@@ -307,13 +309,12 @@ class Repairer {
   bool close_loops(bool are_zipped) {
     MeshPieces pieces = look_at_pieces();
     if (pieces.loops.empty()) return false;
-    ChosenFills chosen =
-        choose_fills(mesh_, pieces.table, std::move(pieces.loops), are_zipped, cloud_, choice_);
-    if (!are_zipped) {
-      std::erase_if(chosen.requests,
-                    [](const FillRequest& r) { return r.shape != FillShape::zipped; });
-    }
-    const VerifiedFills fills = make(chosen, pieces.table);
+    std::vector<FillRequest> requests =
+        choose_fills(mesh_, pieces.table, std::move(pieces.loops), are_zipped, cloud_, choice_)
+            .requests;
+    if (!are_zipped)
+      std::erase_if(requests, [](const FillRequest& r) { return r.shape != FillShape::zipped; });
+    const VerifiedFills fills = make(requests, pieces.table);
     clean_topology(mesh_);
     return fills.zipped_pieces > 0;
   }
