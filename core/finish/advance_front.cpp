@@ -25,14 +25,13 @@ constexpr double kMaxBentRadius = 0.7;
 /// Cosines: between a face and the one that it goes on from; and the faces around a vertex.
 constexpr double kFlat = 0.7;
 constexpr double kMinTurn = -0.1;
-constexpr double kMinTurnAtVertex = 0.3;
+constexpr double kMinTurnAtVertex = -0.3;
 constexpr double kNeedle = 0.1;  ///< sine of a smallest angle
 /// In h, for each unit of cosine: how much farther a point may lie than one that bends more.
 constexpr double kBendCost = 1.0;
 /// In radii of 1 h, when faces of several edges compete: what is flat comes first.
 constexpr double kBendDelay = 2.0;
 constexpr double kGuardCube = 1.5;           ///< in h
-constexpr double kApart = 0.6;               ///< in h: points that are taken
 constexpr double kReach = 2.0;               ///< in h, of points: border vertices that are joined
 constexpr std::size_t kFacesPerLook = 4096;  ///< between looks at whether to stop
 constexpr std::uint32_t kNone = EdgeMap::kNone;
@@ -107,9 +106,12 @@ struct Step {
 
 class Front {
  public:
-  Front(TriangleMesh& mesh, std::span<const Vec3> points, double h)
-      : mesh_(mesh), h_(h), edges_(3 * mesh.triangles.size()), guard_(mesh, kGuardCube * h) {
-    const std::vector<Vec3> apart = points_apart(points, kApart * h);
+  Front(TriangleMesh& mesh, std::span<const Vec3> points, const AdvanceFrontOptions& options)
+      : mesh_(mesh),
+        h_(options.pixel_size),
+        edges_(3 * mesh.triangles.size()),
+        guard_(mesh, kGuardCube * h_) {
+    const std::vector<Vec3> apart = points_apart(points, options.apart * h_);
     const auto old_vertices = static_cast<std::uint32_t>(mesh.positions.size());
     mesh.positions.insert(mesh.positions.end(), apart.begin(), apart.end());
     if (!mesh.sources.empty()) mesh.sources.resize(mesh.positions.size());
@@ -261,11 +263,11 @@ class Front {
 
 }  // namespace
 
-std::size_t advance_front(TriangleMesh& mesh, std::span<const Vec3> points, double pixel_size,
-                          const Progress& progress) {
+std::size_t advance_front(TriangleMesh& mesh, std::span<const Vec3> points,
+                          const AdvanceFrontOptions& options, const Progress& progress) {
   const std::size_t before = mesh.triangles.size();
   if (before == 0 || points.empty()) return 0;
-  Front(mesh, points, pixel_size).run(progress);
+  Front(mesh, points, options).run(progress);
   return mesh.triangles.size() - before;
 }
 

@@ -8,6 +8,11 @@
 
 namespace rangezip {
 
+struct AdvanceFrontOptions {
+  double pixel_size = 0.0;  ///< h, model units; positive
+  double apart = 0.6;       ///< in h: of points nearer to each other one is taken
+};
+
 /// Grows the border of a mesh over points by an advancing front [Bernardini et al. 1999;
 /// Cohen-Steiner, Da 2004]. Each border edge looks for the point, or the vertex of the border, that
 /// makes the best face with it: the one with the smallest circle on the far side of the edge, as in
@@ -16,18 +21,17 @@ namespace rangezip {
 ///
 /// No circle has a radius over 0.9 h, so no face leads over a gap of 2 h; with a bend of over 45
 /// degrees it has 0.7 h at most. Sharper bends than 95 degrees are not made, nor faces that look
-/// away from those around a vertex that they join. Of points nearer to each other than 0.6 h one is
-/// taken. A face that would cross another gives way to the next best.
+/// away from those around a vertex that they join, by over 107 degrees: around a rim they look
+/// aside. A face that would cross another gives way to the next best.
 ///
 /// The mesh stays oriented, and its faces stay; the new ones come last. A vertex where fronts have
 /// met may be left with several fans (core/finish/clean_topology.h), and points that were not
 /// needed are vertices without faces. Cost: a sort of points and border vertices, and for each edge
 /// those within 4 h.
 /// @param points that the mesh leaves out; border vertices within 2 h of them are joined
-/// @param pixel_size h, model units; positive
 /// @return faces that came
 /// @pre oriented, manifold
-std::size_t advance_front(TriangleMesh& mesh, std::span<const Vec3> points, double pixel_size,
-                          const Progress& progress = {});
+std::size_t advance_front(TriangleMesh& mesh, std::span<const Vec3> points,
+                          const AdvanceFrontOptions& options, const Progress& progress = {});
 
 }  // namespace rangezip

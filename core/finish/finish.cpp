@@ -119,7 +119,7 @@ void remove_thin_handles(TriangleMesh& mesh, const PointGrid& cloud, const Finis
     thin.gaps = {&cloud, h};
   } else {
     thin.filled_girth = kFilledHandle * h;
-    thin.cloud = &cloud;
+    thin.cloud = {&cloud, h};
   }
   for (int round = 0; round < kHandleRounds; ++round) {
     const std::size_t cut = cut_thin_handles(mesh, thin);

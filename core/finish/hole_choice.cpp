@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/finish/left_out_faces.h"
+#include "core/finish/loop_disc.h"
 #include "core/finish/other_wall.h"
 #include "core/finish/unsupported_faces.h"
 
@@ -46,6 +47,8 @@ constexpr double kInsideMargin = 1.5;
 constexpr double kEvidenceRadius = 1.0;
 constexpr double kEvidenceShare = 0.3;
 constexpr int kMinEvidenceSamples = 3;
+/// Mean cosine, of the faces beside a loop toward its axis: they are the wall of a hole.
+constexpr double kLooksInwards = 0.5;
 /// A border may be a pixel beyond the points; of a loop that strays farther the fill tells nothing.
 constexpr SupportReach kLoopSupport{1.25, 2.0};
 constexpr double kShownLoop = 0.9;  // of the vertices of a loop
@@ -131,6 +134,20 @@ FillInside look_inside(const LoopGeometry& loop, const HoleFill& fill, const Poi
   return inside;
 }
 
+/// Whether the faces beside a loop look inwards, to where no points are: the wall of a hole.
+bool is_across_hole(const LoopGeometry& geometry, const std::vector<Vec3>& positions,
+                    const CornerTable& table, const BoundaryLoop& loop, const PointGrid& cloud) {
+  const LoopDisc disc = disc_of_loop(geometry.points);
+  double inwards = 0.0;
+  const std::size_t n = geometry.points.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3 &p = geometry.points[i], &q = geometry.points[(i + 1) % n];
+    const Vec3 normal = unit_normal(positions, table.triangle(loop.corners[i] / 3));
+    inwards += glm::length(q - p) * glm::dot(normal, toward_axis(disc, 0.5 * (p + q)));
+  }
+  return inwards >= kLooksInwards * geometry.perimeter && points_in_middle(cloud, disc) == 0;
+}
+
 /// @param positions of the table's vertices
 Vec3 corner_of(const HoleFill& fill, const std::vector<Vec3>& positions, std::uint32_t v) {
   return v < positions.size() ? positions[v] : fill.new_positions[v - positions.size()];
@@ -210,7 +227,10 @@ std::optional<FillChoice> choose_fill(const std::vector<Vec3>& positions, const 
 Inside inside_of_fill(const std::vector<Vec3>& positions, const CornerTable& table,
                       const BoundaryLoop& loop, const PointGrid& cloud, double pixel_size) {
   const HoleFill fill = fill_loop(positions, table, loop, FillShape::smooth, pixel_size);
-  return look_inside(geometry_of(positions, table, loop), fill, cloud, pixel_size).shown;
+  const LoopGeometry geometry = geometry_of(positions, table, loop);
+  const Inside shown = look_inside(geometry, fill, cloud, pixel_size).shown;
+  if (shown != Inside::unknown) return shown;
+  return is_across_hole(geometry, positions, table, loop, cloud) ? Inside::air : Inside::unknown;
 }
 
 }  // namespace rangezip

@@ -49,7 +49,9 @@ struct FillChoice {
                                                     const PointGrid& cloud,
                                                     const HoleChoiceOptions& options);
 
-/// What a cloud shows inside of a hole, where a fill lies more than 1.5 h away from its loop.
+/// What a cloud shows inside of a hole, where a fill lies more than 1.5 h away from its loop; of a
+/// smaller one, there is air if the faces beside the loop look at its axis, around which no point
+/// is: they are the wall of a narrow hole.
 enum class Inside {
   unknown,  ///< the hole is too small for that
   air,      ///< hardly any points

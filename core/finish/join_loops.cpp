@@ -35,6 +35,7 @@ constexpr double kMinSupportedInAir = 0.3;
 /// each other; so may this share of a strip's middles.
 constexpr double kCovered = 0.35;
 constexpr double kMaxCovered = 0.35;
+constexpr double kMaxCoveredInAir = 0.5;
 /// Mean cosines between a strip and the faces beside it: shown by points, the same where the gap is
 /// wide, and shown by no point.
 constexpr double kMinShown = 0.3;
@@ -42,6 +43,12 @@ constexpr double kMinShownWide = -0.25;
 constexpr double kMinContinued = 0.5;
 /// Neighbours that are tried as the seam of a strip, at least, the nearest first.
 constexpr std::size_t kSeams = 12;
+/// In h, around a loop; and mean cosine between its fill and the faces beside it. Such a hole is
+/// not the end of another.
+constexpr double kNick = 6.0;
+constexpr double kNickContinued = 0.8;
+/// Strips of a loop that are tried.
+constexpr int kAttempts = 4;
 /// Longer loops are borders rather than rims of holes, and their fills take long.
 constexpr std::size_t kMaxEdges = 300;
 
@@ -54,7 +61,7 @@ struct Strip {
   std::vector<Vec3> middles;    ///< of its long edges
   double mean_edge = 0.0;       ///< of all inner edges
   bool is_shown = false;        ///< points can tell: most edges are long
-  bool is_through_air = false;  ///< both fills would lie in it: they would be wrong
+  bool is_through_air = false;  ///< a fill would lie in it, and be wrong
 };
 
 /// A loop as one side of a strip, in filling order.
@@ -111,7 +118,7 @@ class Joiner {
         loops_(pieces.loops),
         component_(pieces.component) {}
 
-  /// The strips to close, none of which shares a loop with another.
+  /// The strips that are surface of the object, the narrowest first; some may share a loop.
   [[nodiscard]] std::vector<Strip> strips() const {
     if (loops_.size() < 2) return {};
     const auto are_wanted = [&](std::uint32_t a, std::uint32_t b) {
@@ -130,24 +137,13 @@ class Joiner {
     for (std::optional<Strip>& strip : made) {
       if (strip) strips.push_back(std::move(*strip));
     }
-    return one_for_each_loop(surfaces_among(std::move(strips)));
+    strips = surfaces_among(std::move(strips));
+    std::stable_sort(strips.begin(), strips.end(),
+                     [](const Strip& a, const Strip& b) { return a.mean_edge < b.mean_edge; });
+    return strips;
   }
 
  private:
-  /// The narrowest come first.
-  [[nodiscard]] std::vector<Strip> one_for_each_loop(std::vector<Strip> strips) const {
-    std::stable_sort(strips.begin(), strips.end(),
-                     [](const Strip& a, const Strip& b) { return a.mean_edge < b.mean_edge; });
-    std::vector<std::uint8_t> is_joined(loops_.size(), 0);
-    std::vector<Strip> chosen;
-    for (Strip& strip : strips) {
-      if (is_joined[strip.loop_a] != 0 || is_joined[strip.loop_b] != 0) continue;
-      is_joined[strip.loop_a] = is_joined[strip.loop_b] = 1;
-      chosen.push_back(std::move(strip));
-    }
-    return chosen;
-  }
-
   /// Those that are surface of the object.
   [[nodiscard]] std::vector<Strip> surfaces_among(std::vector<Strip> strips) const {
     std::vector<Vec3> middles;
@@ -238,13 +234,14 @@ class Joiner {
       return continued >= kMinContinued && continued > continuation_of_fills(strip);
     const bool is_wide = strip.mean_edge >= kWide * h_;
     if (continued < (is_wide ? kMinShownWide : kMinShown)) return false;
+    if (is_nick(strip.loop_a) || is_nick(strip.loop_b)) return false;
     const auto count = static_cast<double>(strip.middles.size());
-    const auto covered = std::count(is_covered.begin(), is_covered.end(), 1);
-    if (static_cast<double>(covered) > kMaxCovered * count) return false;
+    const auto covered = static_cast<double>(std::count(is_covered.begin(), is_covered.end(), 1));
     const Inside a = inside_of(strip.loop_a), b = inside_of(strip.loop_b);
     if (a == Inside::points || b == Inside::points) return false;
-    strip.is_through_air = a == Inside::air && b == Inside::air;
     const bool is_air = a == Inside::air || b == Inside::air;
+    strip.is_through_air = is_air;
+    if (covered > (is_air ? kMaxCoveredInAir : kMaxCovered) * count) return false;
     const auto supported =
         std::count_if(strip.middles.begin(), strip.middles.end(), [&](const Vec3& middle) {
           return is_supported(cloud_, middle, h_, is_wide ? kWideSupport : kSupport);
@@ -261,13 +258,18 @@ class Joiner {
 
   /// Of the better one.
   [[nodiscard]] double continuation_of_fills(const Strip& strip) const {
-    double best = -1.0;
-    for (const std::uint32_t l : {strip.loop_a, strip.loop_b}) {
-      const HoleFill fill = fill_loop(mesh_.positions, table_, loops_[l], FillShape::coarse, 0.0);
-      best = std::max(best,
-                      continuation_of(mesh_.positions, table_, loops_[l].corners, fill.triangles));
-    }
-    return best;
+    return std::max(continuation_of_fill(strip.loop_a), continuation_of_fill(strip.loop_b));
+  }
+
+  [[nodiscard]] double continuation_of_fill(std::uint32_t loop) const {
+    const HoleFill fill = fill_loop(mesh_.positions, table_, loops_[loop], FillShape::coarse, 0.0);
+    return continuation_of(mesh_.positions, table_, loops_[loop].corners, fill.triangles);
+  }
+
+  /// A hole of one or two triangles in a smooth sheet.
+  [[nodiscard]] bool is_nick(std::uint32_t loop) const {
+    return perimeter_of(loops_[loop], table_, mesh_.positions) < kNick * h_ &&
+           continuation_of_fill(loop) > kNickContinued;
   }
 
   [[nodiscard]] Inside inside_of(std::uint32_t loop) const {
@@ -282,25 +284,52 @@ class Joiner {
   const std::vector<std::uint32_t>& component_;
 };
 
+void mark(const Strip& strip, std::vector<std::uint8_t>& vertices) {
+  for (const Triangle& t : strip.fill.triangles) {
+    for (const std::uint32_t v : t)
+      vertices[v] = 1;
+  }
+}
+
+/// The first strip of each loop that is not joined. @return the others
+std::vector<Strip> take_one_for_each_loop(std::vector<Strip>& strips,
+                                          std::vector<std::uint8_t> is_joined) {
+  std::vector<Strip> chosen, others;
+  for (Strip& strip : strips) {
+    const bool is_free = is_joined[strip.loop_a] == 0 && is_joined[strip.loop_b] == 0;
+    if (is_free) is_joined[strip.loop_a] = is_joined[strip.loop_b] = 1;
+    (is_free ? chosen : others).push_back(std::move(strip));
+  }
+  strips = std::move(chosen);
+  return others;
+}
+
 }  // namespace
 
 JoinedLoops join_loops(TriangleMesh& mesh, const MeshPieces& pieces, const PointGrid& cloud,
                        double pixel_size) {
-  const std::vector<Strip> strips = Joiner(mesh, pieces, cloud, pixel_size).strips();
-  std::vector<HoleFill> fills;
-  fills.reserve(strips.size());
-  for (const Strip& strip : strips)
-    fills.push_back(strip.fill);
   JoinedLoops result{.is_hindered = std::vector<std::uint8_t>(mesh.positions.size(), 0)};
-  const std::vector<std::size_t> hindered = append_verified(mesh, fills);
-  for (const std::size_t i : hindered) {
-    if (!strips[i].is_through_air) continue;
-    for (const Triangle& t : fills[i].triangles) {
-      for (const std::uint32_t v : t)
-        result.is_hindered[v] = 1;
+  std::vector<std::uint8_t> is_joined(pieces.loops.size(), 0);
+  std::vector<Strip> strips = Joiner(mesh, pieces, cloud, pixel_size).strips();
+  for (int attempt = 0; attempt < kAttempts && !strips.empty(); ++attempt) {
+    std::vector<Strip> others = take_one_for_each_loop(strips, is_joined);
+    std::vector<HoleFill> fills;
+    fills.reserve(strips.size());
+    for (const Strip& strip : strips)
+      fills.push_back(strip.fill);
+    std::vector<std::uint8_t> fails(strips.size(), 0);
+    for (const std::size_t i : append_verified(mesh, fills))
+      fails[i] = 1;
+    for (std::size_t i = 0; i < strips.size(); ++i) {
+      if (fails[i] == 0) {
+        is_joined[strips[i].loop_a] = is_joined[strips[i].loop_b] = 1;
+        ++result.pairs;
+      } else if (strips[i].is_through_air) {
+        mark(strips[i], result.is_hindered);
+      }
     }
+    strips = std::move(others);
   }
-  result.pairs = strips.size() - hindered.size();
   return result;
 }
 

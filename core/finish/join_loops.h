@@ -23,19 +23,19 @@ struct JoinedLoops {
 /// each other within 3 h, the least sharp strip between them is made, with no edge over 4 h, and
 /// taken for the surface of the object rather than the two fills if
 /// - where at least half of the inner edges of the strip are longer than 1.2 h, so that points can
-///   tell: the cloud has none inside of either fill, away from its loop; 65 % of the middles of
-///   these edges do not lie on the mesh as it is, and 70 % have a point within 0.6 h, or 30 % if
-///   one of the fills would lie in the air. The strip goes on from the faces beside it with a mean
-///   cosine of 0.3. Where it is over 2.4 h wide these points belong to no sheet beside it: then 0.9
-///   h and -0.25 are enough;
+///   tell: the cloud has none inside of either fill, away from its loop, and neither loop is a nick
+///   of under 6 h in a smooth sheet; 65 % of the middles of these edges do not lie on the mesh as
+///   it is, and 70 % have a point within 0.6 h (50 % and 30 % if one of the fills would lie in the
+///   air). The strip goes on from the faces beside it with a mean cosine of 0.3. Where it is over
+///   2.4 h wide these points belong to no sheet beside it: then 0.9 h and -0.25 are enough;
 /// - where no point can tell, the strip goes on from the faces beside it with a mean cosine of 0.5,
 ///   and better than the fills.
 /// A loop is joined once; the narrowest strips come first. A strip that crosses the mesh or another
-/// one is not made. Where both fills would lie in the air, its loops are named: they may be
-/// joined once faces around them are gone, and should not be filled before. Not where holes are too
-/// small to tell: the faces around them may be all there is of a thin limb. O(faces), and for each
-/// pair of loops what a dozen of their fills cost. The mesh stays manifold and without
-/// self-intersections. In parallel.
+/// one is not made, and the next of its loops is tried. Where a fill would lie in the air, its
+/// loops are named: they may be joined once faces around them are gone, and should not be filled
+/// before. Not where holes are too small to tell: the faces around them may be all there is of a
+/// thin limb. O(faces), and for each pair of loops what a dozen of their fills cost. The mesh stays
+/// manifold and without self-intersections. In parallel.
 /// @param pieces of the mesh, as it is before
 /// @param cloud may be empty: then faces alone tell
 /// @param pixel_size h, model units; positive

@@ -37,6 +37,7 @@ constexpr double kPart = 8.0;
 constexpr double kOffMesh = 0.42;
 constexpr double kOffMeshPerNoise = 2.0;
 constexpr double kInTheWay = 0.9;
+constexpr double kApartAgain = 0.3;  ///< in h, of points where the front has stopped
 constexpr int kSmoothRounds = 3;
 constexpr double kHardlyNoise = 0.08;  ///< in h: less is left in
 constexpr std::size_t kGrain = 256;
@@ -121,8 +122,11 @@ std::size_t regrow(TriangleMesh& mesh, std::span<const Vec3> points, const Point
   clear_way(mesh, points_off(near, mesh, off_mesh), places, grid, h);
   FacePart part = part_near(mesh, places, kPart * h);
   if (part.mesh.empty()) return 0;  // they are of another body, inside of this one
-  const std::vector<Vec3> missing = points_off(near, part.mesh, off_mesh);
-  const std::size_t count = advance_front(part.mesh, missing, h, progress);
+  std::vector<Vec3> missing = points_off(near, part.mesh, off_mesh);
+  std::size_t count = advance_front(part.mesh, missing, {.pixel_size = h}, progress);
+  // Those that it has left out because the next were too far: all of them, where it stopped.
+  missing = points_off(missing, part.mesh, off_mesh);
+  count += advance_front(part.mesh, missing, {.pixel_size = h, .apart = kApartAgain}, progress);
   put_back(std::move(part), mesh);
   clean_topology(mesh);
   return count;

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <numbers>
 #include <queue>
 #include <tuple>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "core/finish/boundary_loops.h"
 #include "core/finish/components.h"
 #include "core/finish/corner_table.h"
+#include "core/finish/loop_disc.h"
 #include "core/finish/unsupported_faces.h"
 
 namespace rangezip {
@@ -161,8 +161,8 @@ class EdgeWords {
 /// A closed path along edges.
 struct Cycle {
   double length = 0.0;
-  std::uint64_t word = 0;  ///< the sum along it
-  std::vector<std::uint32_t> vertices;
+  std::uint64_t word = 0;               ///< the sum along it
+  std::vector<std::uint32_t> vertices;  ///< in order
 
   friend bool operator<(const Cycle& a, const Cycle& b) {
     return std::tie(a.length, a.vertices) < std::tie(b.length, b.vertices);
@@ -235,9 +235,11 @@ class LocalSearch {
   [[nodiscard]] static std::vector<std::uint32_t> path(const Ways& ways, std::uint32_t a,
                                                        std::uint32_t b) {
     std::vector<std::uint32_t> vertices;
-    for (std::uint32_t v = a; v != kNone; v = ways.at(v).from)
-      vertices.push_back(v);
     for (std::uint32_t v = b; ways.at(v).from != kNone; v = ways.at(v).from)
+      vertices.push_back(v);
+    std::reverse(vertices.begin(), vertices.end());
+    // From next to the root to b, over the edge to a, and back.
+    for (std::uint32_t v = a; v != kNone; v = ways.at(v).from)
       vertices.push_back(v);
     return vertices;
   }
@@ -334,32 +336,69 @@ std::size_t points_within(const PointGrid& cloud, const Vec3& place, double radi
   return count;
 }
 
+std::vector<Vec3> places_along(const Cycle& cycle, const TriangleMesh& mesh) {
+  std::vector<Vec3> places;
+  for (const std::uint32_t v : cycle.vertices)
+    places.push_back(mesh.positions[v]);
+  return places;
+}
+
+/// The faces at the vertices of a path, each once.
+std::vector<std::uint32_t> faces_along(const Cycle& cycle, const CornerTable& table) {
+  std::vector<std::uint32_t> faces;
+  for (const std::uint32_t v : cycle.vertices)
+    table.for_each_corner(v, [&](std::uint32_t c) { faces.push_back(c / 3); });
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
+}
+
 /// Whether points lie in the middle of a closed path, compared with those along it.
 bool is_filled(const Cycle& cycle, const TriangleMesh& mesh, const PointGrid& cloud) {
-  constexpr double kMiddle = 0.5;  // of the radius
   constexpr double kLeastDensity = 0.25;
-  Vec3 middle{0.0};
-  for (const std::uint32_t v : cycle.vertices)
-    middle += mesh.positions[v] / static_cast<double>(cycle.vertices.size());
-  const double radius = kMiddle * cycle.length / (2.0 * std::numbers::pi);
+  const std::vector<Vec3> path = places_along(cycle, mesh);
+  const LoopDisc disc = disc_of_loop(path);
+  const std::size_t inside = points_in_middle(cloud, disc);
+  if (inside == 0) return false;
   std::size_t along = 0;
-  for (const std::uint32_t v : cycle.vertices)
-    along += points_within(cloud, mesh.positions[v], radius);
-  const double mean = static_cast<double>(along) / static_cast<double>(cycle.vertices.size());
-  const auto inside = static_cast<double>(points_within(cloud, middle, radius));
-  return inside > 0.0 && inside >= kLeastDensity * mean;
+  for (const Vec3& p : path)
+    along += points_within(cloud, p, middle_radius(disc));
+  return static_cast<double>(inside * path.size()) >= kLeastDensity * static_cast<double>(along);
+}
+
+/// Whether a path leads around the inside of a hole: most of the faces along it look inwards, where
+/// no points lie, and points show them.
+bool is_around_hole(const Cycle& cycle, const TriangleMesh& mesh, const CornerTable& table,
+                    const CloudEvidence& evidence) {
+  constexpr double kInwards = 0.3;  // cosine
+  constexpr double kLeastShare = 0.55;
+  constexpr SupportReach kReach{.pixels = 0.6, .spacings = 1.0};
+  const LoopDisc disc = disc_of_loop(places_along(cycle, mesh));
+  const std::vector<std::uint32_t> faces = faces_along(cycle, table);
+  const auto shown = std::count_if(faces.begin(), faces.end(), [&](std::uint32_t f) {
+    const auto& [a, b, c] = mesh.triangles[f];
+    const Vec3 center = (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3.0;
+    const Vec3 normal = unit_normal(mesh.positions, mesh.triangles[f]);
+    return glm::dot(normal, toward_axis(disc, center)) >= kInwards &&
+           is_supported(*evidence.cloud, center, evidence.pixel_size, kReach);
+  });
+  return static_cast<double>(shown) >= kLeastShare * static_cast<double>(faces.size());
 }
 
 /// Paths that no object has, the shortest first.
 std::vector<Cycle> false_cycles(const TriangleMesh& mesh, const CornerTable& table,
                                 const ThinHandleOptions& options) {
   const std::vector<double> lengths = lengths_of(mesh, table, options.gaps);
-  const bool knows_filled = options.cloud != nullptr && !options.cloud->empty();
+  constexpr double kLeastHole = 3.5;  // in h, around it
+  const bool has_points = options.cloud.cloud != nullptr && !options.cloud.cloud->empty();
   const double longest =
-      knows_filled ? std::max(options.max_girth, options.filled_girth) : options.max_girth;
+      has_points ? std::max(options.max_girth, options.filled_girth) : options.max_girth;
   std::vector<Cycle> cycles = short_cycles(table, lengths, longest);
   std::erase_if(cycles, [&](const Cycle& cycle) {
-    return cycle.length > options.max_girth && !is_filled(cycle, mesh, *options.cloud);
+    if (cycle.length > options.max_girth && !is_filled(cycle, mesh, *options.cloud.cloud))
+      return true;
+    return has_points && cycle.length > kLeastHole * options.cloud.pixel_size &&
+           is_around_hole(cycle, mesh, table, options.cloud);
   });
   return cycles;
 }

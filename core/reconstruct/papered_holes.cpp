@@ -53,7 +53,7 @@ Faces faces_without_points(const TriangleMesh& mesh, const PointGrid& cloud, dou
   const std::vector<std::uint8_t> is_bare = flags_of(mesh.triangles.size(), [&](std::size_t f) {
     const std::array<Vec3, 4> places = places_on(mesh, mesh.triangles[f]);
     return !std::all_of(places.begin(), places.end(), [&](const Vec3& place) {
-      return is_supported(cloud, place, h, kFaceSupport);
+      return is_supported(cloud, place, h, kCloseSupport);
     });
   });
   Faces bare;
@@ -114,7 +114,7 @@ PaperedHoles find_papered_holes(std::span<const Vec3> points, const TriangleMesh
   region.lower -= Vec3(kRegionMargin * h);
   region.upper += Vec3(kRegionMargin * h);
   const Faces bare =
-      faces_without_points(mesh, PointGrid(points, region, kFaceSupport.pixels * h), h);
+      faces_without_points(mesh, PointGrid(points, region, kCloseSupport.pixels * h), h);
   if (bare.centers.empty()) return {};
   const std::vector<Vec3> near = points_near(points, PointGrid(bare.centers, region, h), kNear * h);
   const PointGrid around(near, region, 0.5 * h);

@@ -22,7 +22,7 @@ struct PaperedHoles {
 /// Finds holes that a mesh of scans has papered over (own). Pixels at the rim of a hole of a few
 /// pixels see points on both sides of it, and faces join these across the air. Such a place is told
 /// by two things together: faces without a point near their centroid or the middle of a side
-/// (within 0.75 h, or 1.5 spacings), of at least h^2 in all; and the wall of the hole, at least a
+/// (within 0.75 h, or one spacing), of at least h^2 in all; and the wall of the hole, at least a
 /// dozen points near by that the mesh leaves out, by more than 0.6 h. It is none where
 /// - these are over half of the points there: what is as fine as that no scan resolves;
 /// - they have noise of over h / 8, as in pockets of real scans: the wall is to be a clean surface.

@@ -64,7 +64,7 @@ TEST_CASE("fronts from all sides of a hole cover 98 % of it with points and meet
   const std::vector<Triangle> before = mesh.triangles;
   const auto points = points_in({Vec3(-7.8, -7.8, 0.0), Vec3(7.8, 7.8, 0.0)}, 6.0, engine);
 
-  const std::size_t came = advance_front(mesh, points, kH);
+  const std::size_t came = advance_front(mesh, points, {.pixel_size = kH});
 
   REQUIRE(mesh.triangles.size() == before.size() + came);
   CHECK(std::equal(before.begin(), before.end(), mesh.triangles.begin()));
@@ -87,10 +87,11 @@ TEST_CASE("no face of a front is larger than its circle, nor has new points near
   const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
   CAPTURE(seed);
   std::mt19937_64 engine(seed);
+  const double apart = GENERATE(0.6, 0.3);
   TriangleMesh mesh = sheet_without([](const Vec3& p) { return p.x > -8.5; });
   const std::size_t faces = mesh.triangles.size(), vertices = mesh.positions.size();
   const auto points = points_in({Vec3(-8.0, -12.0, -0.1), Vec3(12.0, 12.0, 0.1)}, 2.0, engine);
-  REQUIRE(advance_front(mesh, points, kH) > 100);
+  REQUIRE(advance_front(mesh, points, {.pixel_size = kH, .apart = apart}) > 100);
   for (std::size_t f = faces; f < mesh.triangles.size(); ++f) {
     const auto& [a, b, c] = mesh.triangles[f];
     const double sides =
@@ -101,7 +102,7 @@ TEST_CASE("no face of a front is larger than its circle, nor has new points near
   }
   for (std::size_t i = vertices; i < mesh.positions.size(); ++i) {
     for (std::size_t k = vertices; k < i; ++k)
-      REQUIRE(glm::length(mesh.positions[i] - mesh.positions[k]) >= 0.6 * kH);
+      REQUIRE(glm::length(mesh.positions[i] - mesh.positions[k]) >= apart * kH);
   }
 }
 
@@ -114,7 +115,7 @@ TEST_CASE("a front does not cross a gap of two pixels that holds no points", "[f
   auto points = points_in({Vec3(-2.0, -12.0, 0.0), Vec3(-1.0, 12.0, 0.0)}, 6.0, engine);
   const auto others = points_in({Vec3(1.0, -12.0, 0.0), Vec3(2.0, 12.0, 0.0)}, 6.0, engine);
   points.insert(points.end(), others.begin(), others.end());
-  REQUIRE(advance_front(mesh, points, kH) > 20);
+  REQUIRE(advance_front(mesh, points, {.pixel_size = kH}) > 20);
   clean_topology(mesh);
   CHECK(report_mesh(mesh).components == 2);
 }
@@ -130,7 +131,7 @@ TEST_CASE("a front goes around a crease, up the wall behind it", "[finish]") {
                                : Box{Vec3(0.6, -12.0, -10.0), Vec3(0.6, 12.0, 0.0)};
   const auto on_wall = points_in(wall, 6.0, engine);
   points.insert(points.end(), on_wall.begin(), on_wall.end());
-  REQUIRE(advance_front(mesh, points, kH) > 100);
+  REQUIRE(advance_front(mesh, points, {.pixel_size = kH}) > 100);
   clean_topology(mesh);
   const auto covered = covered_points(on_wall, mesh, 0.6 * kH);
   const auto left = static_cast<std::size_t>(std::count(covered.begin(), covered.end(), 0));
@@ -157,14 +158,14 @@ TEST_CASE("a front does not cross what is in the way", "[finish]") {
                         {{3.0, -20.0, -9.0}, {3.0, 20.0, -9.0}, {3.0, 0, 30.0}});
   mesh.triangles.push_back({first, first + 1, first + 2});
   const auto points = points_in({Vec3(-3.0, -12.0, 0.0), Vec3(12.0, 12.0, 0.0)}, 6.0, engine);
-  REQUIRE(advance_front(mesh, points, kH) > 100);
+  REQUIRE(advance_front(mesh, points, {.pixel_size = kH}) > 100);
   CHECK(self_intersections(mesh).empty());
 }
 
 TEST_CASE("a front without points or without a border does nothing", "[finish]") {
   TriangleMesh sheet = shapes::square_sheet(4), closed = testing::cube(4);
-  CHECK(advance_front(sheet, {}, kH) == 0);
-  CHECK(advance_front(closed, std::vector<Vec3>(3, Vec3(1.5, 0.0, 0.0)), kH) == 0);
+  CHECK(advance_front(sheet, {}, {.pixel_size = kH}) == 0);
+  CHECK(advance_front(closed, std::vector<Vec3>(3, Vec3(1.5, 0.0, 0.0)), {.pixel_size = kH}) == 0);
   CHECK(closed.triangles == testing::cube(4).triangles);
 }
 

@@ -28,18 +28,19 @@ Vec3 on_torus(double around, double across) {
 }
 
 /// A torus whose tube is cut through where `around` lies within `gap` / 2 of 0, model units.
-TriangleMesh cut_torus(double gap) {
+/// @param n_around, n_across how many vertices
+TriangleMesh cut_torus(double gap, int n_around = kAround, int n_across = kAcross) {
   TriangleMesh mesh;
   constexpr double kTurn = 2.0 * std::numbers::pi;
-  for (int i = 0; i < kAround; ++i) {
-    for (int k = 0; k < kAcross; ++k)
-      mesh.positions.push_back(on_torus((i + 0.5) * kTurn / kAround, k * kTurn / kAcross));
+  for (int i = 0; i < n_around; ++i) {
+    for (int k = 0; k < n_across; ++k)
+      mesh.positions.push_back(on_torus((i + 0.5) * kTurn / n_around, k * kTurn / n_across));
   }
-  const auto vertex = [](int i, int k) {
-    return static_cast<std::uint32_t>((i % kAround) * kAcross + k % kAcross);
+  const auto vertex = [&](int i, int k) {
+    return static_cast<std::uint32_t>((i % n_around) * n_across + k % n_across);
   };
-  for (int i = 0; i < kAround; ++i) {
-    for (int k = 0; k < kAcross; ++k) {
+  for (int i = 0; i < n_around; ++i) {
+    for (int k = 0; k < n_across; ++k) {
       mesh.triangles.push_back({vertex(i, k), vertex(i + 1, k), vertex(i + 1, k + 1)});
       mesh.triangles.push_back({vertex(i, k), vertex(i + 1, k + 1), vertex(i, k + 1)});
     }
@@ -83,14 +84,22 @@ TEST_CASE("a ring-shaped gap in a tube is closed by a strip, which makes the han
   REQUIRE(self_intersections(mesh).empty());
 }
 
+/// A face across the gap, beside its middle, that the tube would have to lead through. @return its
+/// first vertex
+std::uint32_t add_obstacle(TriangleMesh& mesh, double gap) {
+  constexpr double kRadius = 2.4 * kTubeRadius;
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (const double angle : {0.0, 2.0 / 3.0 * std::numbers::pi, 4.0 / 3.0 * std::numbers::pi})
+    mesh.positions.emplace_back(kAxisRadius + kRadius * std::cos(angle), 0.38 * gap,
+                                kRadius * std::sin(angle));
+  mesh.triangles.push_back({first, first + 1, first + 2});
+  return first;
+}
+
 TEST_CASE("a strip that something crosses is not made, and its loops are named") {
   const double gap = 2.0 * kSide;
   TriangleMesh mesh = cut_torus(gap);
-  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-  for (const double across : {-0.5, 0.5, 0.0})
-    mesh.positions.emplace_back(kAxisRadius + (1.0 + 0.2 * across) * kTubeRadius, 0.1 * across,
-                                across == 0.0 ? 0.1 : 0.0);
-  mesh.triangles.push_back({first, first + 1, first + 2});
+  const std::uint32_t first = add_obstacle(mesh, gap);
   const TriangleMesh before = mesh;
   const JoinedLoops joined =
       join_loops(mesh, pieces_of(mesh), grid_of(torus_points(6, false, gap)), kSide);
@@ -99,6 +108,23 @@ TEST_CASE("a strip that something crosses is not made, and its loops are named")
   const auto hindered = std::count(joined.is_hindered.begin(), joined.is_hindered.end(), 1);
   REQUIRE(static_cast<std::size_t>(hindered) == report_mesh(mesh).boundary_edges - 3);
   REQUIRE(joined.is_hindered[first] == 0);
+}
+
+TEST_CASE("where a tube is 2 h wide, loops that cannot be joined are named if it is a hole") {
+  constexpr double kPixel = kTubeRadius;  // all of the tube is within a pixel of its axis
+  const bool is_hole = GENERATE(true, false);
+  CAPTURE(is_hole);
+  constexpr double kGap = 1.5 * kPixel;
+  TriangleMesh mesh = cut_torus(kGap, 20, 8);
+  for (Triangle& t : mesh.triangles) {
+    if (is_hole) std::swap(t[1], t[2]);  // what looks inwards is the wall of a hole
+  }
+  add_obstacle(mesh, kGap);
+  const JoinedLoops joined =
+      join_loops(mesh, pieces_of(mesh), grid_of(torus_points(7, false, 0.0)), kPixel);
+  REQUIRE(joined.pairs == 0);
+  const auto hindered = std::count(joined.is_hindered.begin(), joined.is_hindered.end(), 1);
+  CHECK((hindered > 0) == is_hole);
 }
 
 TEST_CASE("a gap with points of the cloud on neither side of its middle stays") {

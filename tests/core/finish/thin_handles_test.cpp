@@ -90,14 +90,28 @@ TEST_CASE("a longer handle is cut if points lie inside, and kept if they lie on 
   const Box region{Vec3(-2.0), Vec3(2.0)};
   const PointGrid hollow(points, region, 0.1);
   TriangleMesh kept = shapes::to_mesh(soup);
-  CHECK(cut_thin_handles(kept, {.filled_girth = 1.1 * girth, .cloud = &hollow}) == 0);
+  CHECK(cut_thin_handles(kept, {.filled_girth = 1.1 * girth, .cloud = {&hollow, 0.1}}) == 0);
   const TriangleSoup core = shapes::torus(1.0, 0.2 * tube);
   const std::vector<Vec3> inside = shapes::to_points(shapes::sampled(core, 10'000));
   points.insert(points.end(), inside.begin(), inside.end());
   const PointGrid filled(points, region, 0.1);
-  CHECK(cut_thin_handles(kept, {.filled_girth = 0.9 * girth, .cloud = &filled}) == 0);
-  CHECK(cut_thin_handles(kept, {.filled_girth = 1.1 * girth, .cloud = &filled}) == 1);
+  CHECK(cut_thin_handles(kept, {.filled_girth = 0.9 * girth, .cloud = {&filled, 0.1}}) == 0);
+  CHECK(cut_thin_handles(kept, {.filled_girth = 1.1 * girth, .cloud = {&filled, 0.1}}) == 1);
   CHECK(genus_of(closed(std::move(kept))) == 0);
+}
+
+TEST_CASE(
+    "a narrow tunnel whose wall has points stays, and a handle as thin goes with or without") {
+  constexpr double kH = kGirth / 5.0;
+  const Box region{Vec3(-2.5), Vec3(2.5)};
+  const TriangleSoup tunnel = shapes::torus(1.0, 1.0 - kThin);
+  const PointGrid wall(shapes::to_points(shapes::sampled(tunnel, 100'000)), region, kH);
+  TriangleMesh kept = shapes::to_mesh(tunnel);
+  CHECK(cut_thin_handles(kept, {.max_girth = 1.05 * kGirth, .cloud = {&wall, kH}}) == 0);
+  const TriangleSoup ring = shapes::torus(1.0, kThin);
+  const PointGrid around(shapes::to_points(shapes::sampled(ring, 40'000)), region, kH);
+  TriangleMesh cut = shapes::to_mesh(ring);
+  CHECK(cut_thin_handles(cut, {.max_girth = 1.05 * kGirth, .cloud = {&around, kH}}) == 1);
 }
 
 TEST_CASE("the ends of an open tube make no handle of it, nor do bodies without any") {
