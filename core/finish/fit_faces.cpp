@@ -18,7 +18,7 @@ namespace {
 
 // Angles as cosines.
 constexpr int kRounds = 4;      // at least
-constexpr int kMostRounds = 6;  // if the median of the angles is not met before
+constexpr int kMostRounds = 8;  // if the median of the angles is not met before
 constexpr int kSweeps = 3;      // of solving: the rounds go on with what is left
 constexpr double kMostTurn = 0.5;
 constexpr double kSharpest = 0.5;     // edge that may arise
@@ -33,7 +33,7 @@ constexpr double kPlaneHold = 0.1;
 /// than 10 degrees: no point would tell of an edge of the surface.
 constexpr std::size_t kFewPoints = 4;
 constexpr double kFlat = 0.985;
-constexpr double kSmooth = 0.87;     // 30 degrees, from the normal of a vertex to its faces
+constexpr double kSmooth = 0.7;      // 45 degrees, from the normal of a vertex to its faces
 constexpr double kRelaxStep = 0.55;  // towards the middle of the faces, that is held on to
 constexpr double kMoreHold = 1.65;   // in the next round, if angles are too small
 constexpr double kMoreSlack = 2.0;   // the same

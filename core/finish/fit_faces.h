@@ -27,7 +27,7 @@ struct FitFacesOptions {
 /// where the surface bends most. Where few points tell, faces stay in their planes. Where it does
 /// not bend, vertices move towards the middle of their faces; and edges turn for better angles
 /// where the points stay as near. In four rounds, in each of which points find their faces anew, or
-/// up to six if the median of the angles is not met before.
+/// up to eight if the median of the angles is not met before.
 /// Vertices and edges stay where an angle would get both under the smallest one and smaller than it
 /// is, or a face would turn by more than 60 degrees. The boundary stays. May leave
 /// self-intersections where sheets are close together. Cost: linear in points and faces; in
