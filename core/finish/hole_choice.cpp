@@ -134,7 +134,8 @@ FillInside look_inside(const LoopGeometry& loop, const HoleFill& fill, const Poi
   return inside;
 }
 
-/// Whether the faces beside a loop look inwards, to where no points are: the wall of a hole.
+/// Whether the faces beside a loop look inwards, to where hardly any points are: the wall of a
+/// hole.
 bool is_across_hole(const LoopGeometry& geometry, const std::vector<Vec3>& positions,
                     const CornerTable& table, const BoundaryLoop& loop, const PointGrid& cloud) {
   const LoopDisc disc = disc_of_loop(geometry.points);
@@ -145,7 +146,7 @@ bool is_across_hole(const LoopGeometry& geometry, const std::vector<Vec3>& posit
     const Vec3 normal = unit_normal(positions, table.triangle(loop.corners[i] / 3));
     inwards += glm::length(q - p) * glm::dot(normal, toward_axis(disc, 0.5 * (p + q)));
   }
-  return inwards >= kLooksInwards * geometry.perimeter && points_in_middle(cloud, disc) == 0;
+  return inwards >= kLooksInwards * geometry.perimeter && !is_filled(cloud, geometry.points, disc);
 }
 
 /// @param positions of the table's vertices

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/finish/clean_topology.h"
 #include "core/finish/hole_choice.h"
 #include "core/finish/hole_filling.h"
 #include "core/finish/loop_neighbors.h"
@@ -35,7 +36,8 @@ constexpr double kMinSupportedInAir = 0.3;
 /// each other; so may this share of a strip's middles.
 constexpr double kCovered = 0.35;
 constexpr double kMaxCovered = 0.35;
-constexpr double kMaxCoveredInAir = 0.5;
+constexpr double kMaxCoveredInAir = 0.5;   // where a fill would lie in the air
+constexpr double kMaxCoveredInPart = 0.2;  // of a strip of which a part may be made
 /// Mean cosines between a strip and the faces beside it: shown by points, the same where the gap is
 /// wide, and shown by no point.
 constexpr double kMinShown = 0.3;
@@ -47,6 +49,8 @@ constexpr std::size_t kSeams = 12;
 /// not the end of another.
 constexpr double kNick = 6.0;
 constexpr double kNickContinued = 0.8;
+/// Of a strip's faces: without those that cross something.
+constexpr double kLeastPart = 0.8;
 /// Strips of a loop that are tried.
 constexpr int kAttempts = 4;
 /// Longer loops are borders rather than rims of holes, and their fills take long.
@@ -61,6 +65,7 @@ struct Strip {
   std::vector<Vec3> middles;    ///< of its long edges
   double mean_edge = 0.0;       ///< of all inner edges
   bool is_shown = false;        ///< points can tell: most edges are long
+  bool is_sure = false;         ///< so much that a part of it is better than none
   bool is_through_air = false;  ///< a fill would lie in it, and be wrong
 };
 
@@ -122,8 +127,7 @@ class Joiner {
   [[nodiscard]] std::vector<Strip> strips() const {
     if (loops_.size() < 2) return {};
     const auto are_wanted = [&](std::uint32_t a, std::uint32_t b) {
-      return std::max(loops_[a].corners.size(), loops_[b].corners.size()) <= kMaxEdges &&
-             component_[loops_[a].corners[0] / 3] == component_[loops_[b].corners[0] / 3];
+      return std::max(loops_[a].corners.size(), loops_[b].corners.size()) <= kMaxEdges;
     };
     const std::vector<LoopNeighbors> neighbors =
         loop_neighbors(loops_, table_, mesh_.positions, kMaxGap * h_, are_wanted);
@@ -230,6 +234,8 @@ class Joiner {
   /// @param is_covered by the mesh, of each middle
   [[nodiscard]] bool is_surface(Strip& strip, std::span<const std::uint8_t> is_covered) const {
     const double continued = continuation_of_strip(strip);
+    const bool is_of_one = component_of(strip.loop_a) == component_of(strip.loop_b);
+    if (!strip.is_shown && !is_of_one) return false;
     if (!strip.is_shown)
       return continued >= kMinContinued && continued > continuation_of_fills(strip);
     const bool is_wide = strip.mean_edge >= kWide * h_;
@@ -238,15 +244,26 @@ class Joiner {
     const auto count = static_cast<double>(strip.middles.size());
     const auto covered = static_cast<double>(std::count(is_covered.begin(), is_covered.end(), 1));
     const Inside a = inside_of(strip.loop_a), b = inside_of(strip.loop_b);
-    if (a == Inside::points || b == Inside::points) return false;
     const bool is_air = a == Inside::air || b == Inside::air;
+    const bool has_points = a == Inside::points || b == Inside::points;
+    if (has_points && !is_air) return false;
     strip.is_through_air = is_air;
+    if (!is_air && !is_of_one) return false;
     if (covered > (is_air ? kMaxCoveredInAir : kMaxCovered) * count) return false;
     const auto supported =
         std::count_if(strip.middles.begin(), strip.middles.end(), [&](const Vec3& middle) {
           return is_supported(cloud_, middle, h_, is_wide ? kWideSupport : kSupport);
         });
-    return static_cast<double>(supported) >= (is_air ? kMinSupportedInAir : kMinSupported) * count;
+    const double least = is_air && is_of_one && !has_points ? kMinSupportedInAir : kMinSupported;
+    if (static_cast<double>(supported) < least * count) return false;
+    strip.is_sure = is_air || (covered <= kMaxCoveredInPart * count && !are_in_sheets(strip));
+    return true;
+  }
+
+  /// Whether both loops might be mere holes in smooth sheets.
+  [[nodiscard]] bool are_in_sheets(const Strip& strip) const {
+    return std::min(continuation_of_fill(strip.loop_a), continuation_of_fill(strip.loop_b)) >
+           kNickContinued;
   }
 
   [[nodiscard]] double continuation_of_strip(const Strip& strip) const {
@@ -272,6 +289,10 @@ class Joiner {
            continuation_of_fill(loop) > kNickContinued;
   }
 
+  [[nodiscard]] std::uint32_t component_of(std::uint32_t loop) const {
+    return component_[loops_[loop].corners[0] / 3];
+  }
+
   [[nodiscard]] Inside inside_of(std::uint32_t loop) const {
     return inside_of_fill(mesh_.positions, table_, loops_[loop], cloud_, h_);
   }
@@ -291,6 +312,14 @@ void mark(const Strip& strip, std::vector<std::uint8_t>& vertices) {
   }
 }
 
+std::vector<HoleFill> fills_of(const std::vector<Strip>& strips) {
+  std::vector<HoleFill> fills;
+  fills.reserve(strips.size());
+  for (const Strip& strip : strips)
+    fills.push_back(strip.fill);
+  return fills;
+}
+
 /// The first strip of each loop that is not joined. @return the others
 std::vector<Strip> take_one_for_each_loop(std::vector<Strip>& strips,
                                           std::vector<std::uint8_t> is_joined) {
@@ -304,6 +333,22 @@ std::vector<Strip> take_one_for_each_loop(std::vector<Strip>& strips,
   return others;
 }
 
+/// Appends of strips what crosses nothing, where that is most of a strip: what is left open is
+/// filled as other holes are. Names the loops of others.
+void append_parts(TriangleMesh& mesh, const std::vector<Strip>& strips, JoinedLoops& joined) {
+  const std::vector<HoleFill> parts = without_crossing_faces(mesh, fills_of(strips));
+  for (std::size_t i = 0; i < strips.size(); ++i) {
+    const auto whole = static_cast<double>(strips[i].fill.triangles.size());
+    if (static_cast<double>(parts[i].triangles.size()) >= kLeastPart * whole) {
+      append_fill(mesh, parts[i], mesh.positions.size());
+      ++joined.pairs;
+    } else if (strips[i].is_through_air) {
+      mark(strips[i], joined.is_hindered);
+    }
+  }
+  clean_topology(mesh);
+}
+
 }  // namespace
 
 JoinedLoops join_loops(TriangleMesh& mesh, const MeshPieces& pieces, const PointGrid& cloud,
@@ -311,25 +356,25 @@ JoinedLoops join_loops(TriangleMesh& mesh, const MeshPieces& pieces, const Point
   JoinedLoops result{.is_hindered = std::vector<std::uint8_t>(mesh.positions.size(), 0)};
   std::vector<std::uint8_t> is_joined(pieces.loops.size(), 0);
   std::vector<Strip> strips = Joiner(mesh, pieces, cloud, pixel_size).strips();
+  std::vector<Strip> hindered;
   for (int attempt = 0; attempt < kAttempts && !strips.empty(); ++attempt) {
     std::vector<Strip> others = take_one_for_each_loop(strips, is_joined);
-    std::vector<HoleFill> fills;
-    fills.reserve(strips.size());
-    for (const Strip& strip : strips)
-      fills.push_back(strip.fill);
     std::vector<std::uint8_t> fails(strips.size(), 0);
-    for (const std::size_t i : append_verified(mesh, fills))
+    for (const std::size_t i : append_verified(mesh, fills_of(strips)))
       fails[i] = 1;
     for (std::size_t i = 0; i < strips.size(); ++i) {
-      if (fails[i] == 0) {
-        is_joined[strips[i].loop_a] = is_joined[strips[i].loop_b] = 1;
-        ++result.pairs;
-      } else if (strips[i].is_through_air) {
-        mark(strips[i], result.is_hindered);
+      if (fails[i] != 0) {
+        hindered.push_back(std::move(strips[i]));
+        continue;
       }
+      is_joined[strips[i].loop_a] = is_joined[strips[i].loop_b] = 1;
+      ++result.pairs;
     }
     strips = std::move(others);
   }
+  std::erase_if(hindered, [](const Strip& strip) { return !strip.is_sure; });
+  take_one_for_each_loop(hindered, is_joined);
+  append_parts(mesh, hindered, result);
   return result;
 }
 

@@ -4,6 +4,20 @@
 #include <numbers>
 
 namespace rangezip {
+namespace {
+
+constexpr double kMiddle = 0.5;         ///< of the radius
+constexpr double kLeastDensity = 0.25;  ///< of that around the polygon
+
+std::size_t points_within(const PointGrid& cloud, const Vec3& place, double radius) {
+  std::size_t count = 0;
+  cloud.for_each_near(place, radius, [&](const Vec3& offset) {
+    count += glm::dot(offset, offset) <= radius * radius ? 1 : 0;
+  });
+  return count;
+}
+
+}  // namespace
 
 LoopDisc disc_of_loop(std::span<const Vec3> points) {
   const std::size_t n = points.size();
@@ -31,13 +45,8 @@ Vec3 toward_axis(const LoopDisc& disc, const Vec3& place) {
   return unit_or_z(offset - glm::dot(offset, disc.axis) * disc.axis);
 }
 
-double middle_radius(const LoopDisc& disc) {
-  constexpr double kMiddle = 0.5;
-  return kMiddle * disc.radius;
-}
-
 std::size_t points_in_middle(const PointGrid& cloud, const LoopDisc& disc) {
-  const double radius = middle_radius(disc);
+  const double radius = kMiddle * disc.radius;
   std::size_t count = 0;
   cloud.for_each_near(disc.middle, std::numbers::sqrt2 * radius, [&](const Vec3& offset) {
     const double along = glm::dot(offset, disc.axis);
@@ -45,6 +54,15 @@ std::size_t points_in_middle(const PointGrid& cloud, const LoopDisc& disc) {
     count += std::abs(along) <= radius && glm::dot(out, out) <= radius * radius ? 1 : 0;
   });
   return count;
+}
+
+bool is_filled(const PointGrid& cloud, std::span<const Vec3> polygon, const LoopDisc& disc) {
+  const std::size_t inside = points_in_middle(cloud, disc);
+  if (inside == 0) return false;
+  std::size_t along = 0;
+  for (const Vec3& p : polygon)
+    along += points_within(cloud, p, kMiddle * disc.radius);
+  return static_cast<double>(inside * polygon.size()) >= kLeastDensity * static_cast<double>(along);
 }
 
 }  // namespace rangezip

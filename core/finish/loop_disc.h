@@ -25,7 +25,10 @@ struct LoopDisc {
 /// a hole may wind along the wall, and up to as far along it.
 [[nodiscard]] std::size_t points_in_middle(const PointGrid& cloud, const LoopDisc& disc);
 
-/// How far from the middle of a disc points_in_middle() looks, model units.
-[[nodiscard]] double middle_radius(const LoopDisc& disc);
+/// Whether points lie in the middle of a polygon, at least a quarter as densely as around its
+/// corners: it does not lead around a limb, or a hole. O(corners) and the points near them.
+/// @param disc that of the polygon
+[[nodiscard]] bool is_filled(const PointGrid& cloud, std::span<const Vec3> polygon,
+                             const LoopDisc& disc);
 
 }  // namespace rangezip

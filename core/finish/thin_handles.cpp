@@ -328,14 +328,6 @@ std::vector<Cycle> short_cycles(const CornerTable& table, const std::vector<doub
   return cycles;
 }
 
-std::size_t points_within(const PointGrid& cloud, const Vec3& place, double radius) {
-  std::size_t count = 0;
-  cloud.for_each_near(place, radius, [&](const Vec3& offset) {
-    count += glm::dot(offset, offset) <= radius * radius ? 1 : 0;
-  });
-  return count;
-}
-
 std::vector<Vec3> places_along(const Cycle& cycle, const TriangleMesh& mesh) {
   std::vector<Vec3> places;
   for (const std::uint32_t v : cycle.vertices)
@@ -353,27 +345,13 @@ std::vector<std::uint32_t> faces_along(const Cycle& cycle, const CornerTable& ta
   return faces;
 }
 
-/// Whether points lie in the middle of a closed path, compared with those along it.
-bool is_filled(const Cycle& cycle, const TriangleMesh& mesh, const PointGrid& cloud) {
-  constexpr double kLeastDensity = 0.25;
-  const std::vector<Vec3> path = places_along(cycle, mesh);
-  const LoopDisc disc = disc_of_loop(path);
-  const std::size_t inside = points_in_middle(cloud, disc);
-  if (inside == 0) return false;
-  std::size_t along = 0;
-  for (const Vec3& p : path)
-    along += points_within(cloud, p, middle_radius(disc));
-  return static_cast<double>(inside * path.size()) >= kLeastDensity * static_cast<double>(along);
-}
-
-/// Whether a path leads around the inside of a hole: most of the faces along it look inwards, where
-/// no points lie, and points show them.
-bool is_around_hole(const Cycle& cycle, const TriangleMesh& mesh, const CornerTable& table,
-                    const CloudEvidence& evidence) {
+/// Whether a path leads around the inside of a hole: most of the faces along it look inwards, and
+/// points show them.
+bool is_around_hole(const Cycle& cycle, const LoopDisc& disc, const TriangleMesh& mesh,
+                    const CornerTable& table, const CloudEvidence& evidence) {
   constexpr double kInwards = 0.3;  // cosine
   constexpr double kLeastShare = 0.55;
   constexpr SupportReach kReach{.pixels = 0.6, .spacings = 1.0};
-  const LoopDisc disc = disc_of_loop(places_along(cycle, mesh));
   const std::vector<std::uint32_t> faces = faces_along(cycle, table);
   const auto shown = std::count_if(faces.begin(), faces.end(), [&](std::uint32_t f) {
     const auto& [a, b, c] = mesh.triangles[f];
@@ -395,10 +373,13 @@ std::vector<Cycle> false_cycles(const TriangleMesh& mesh, const CornerTable& tab
       has_points ? std::max(options.max_girth, options.filled_girth) : options.max_girth;
   std::vector<Cycle> cycles = short_cycles(table, lengths, longest);
   std::erase_if(cycles, [&](const Cycle& cycle) {
-    if (cycle.length > options.max_girth && !is_filled(cycle, mesh, *options.cloud.cloud))
+    if (!has_points) return false;
+    const std::vector<Vec3> path = places_along(cycle, mesh);
+    const LoopDisc disc = disc_of_loop(path);
+    if (cycle.length > options.max_girth && !is_filled(*options.cloud.cloud, path, disc))
       return true;
-    return has_points && cycle.length > kLeastHole * options.cloud.pixel_size &&
-           is_around_hole(cycle, mesh, table, options.cloud);
+    return cycle.length > kLeastHole * options.cloud.pixel_size &&
+           is_around_hole(cycle, disc, mesh, table, options.cloud);
   });
   return cycles;
 }

@@ -150,6 +150,25 @@ VerifiedFills fill_verified(TriangleMesh& mesh, const CornerTable& table,
   return Filler(mesh, table, requests, options).run();
 }
 
+std::vector<HoleFill> without_crossing_faces(const TriangleMesh& mesh,
+                                             std::vector<HoleFill> fills) {
+  const Trial trial = make_trial(mesh, fills);
+  std::vector<std::uint32_t> added(trial.fill_of.size());
+  std::iota(added.begin(), added.end(), static_cast<std::uint32_t>(trial.old_faces));
+  const auto pairs = self_intersections(trial.mesh, added);
+  std::vector<std::uint8_t> goes(trial.mesh.triangles.size(), 0);
+  for (const auto& [i, j] : pairs) {
+    if (i < trial.old_faces) goes[j] = 1;
+  }
+  for (const auto& [i, j] : pairs) {
+    if (goes[i] == 0) goes[j] = 1;
+  }
+  std::size_t face = trial.old_faces;
+  for (HoleFill& fill : fills)
+    std::erase_if(fill.triangles, [&](const Triangle&) { return goes[face++] != 0; });
+  return fills;
+}
+
 std::vector<std::size_t> append_verified(TriangleMesh& mesh, const std::vector<HoleFill>& fills) {
   if (fills.empty()) return {};
   const std::vector<std::uint8_t> fails = judge_fills(mesh, fills).fails;

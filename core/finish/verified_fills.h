@@ -42,6 +42,11 @@ VerifiedFills fill_verified(TriangleMesh& mesh, const CornerTable& table,
                             const std::vector<FillRequest>& requests,
                             const VerifiedFillOptions& options);
 
+/// The faces of fills that cross neither the mesh nor each other; of two that cross, the earlier
+/// one.
+[[nodiscard]] std::vector<HoleFill> without_crossing_faces(const TriangleMesh& mesh,
+                                                           std::vector<HoleFill> fills);
+
 /// Appends the fills whose faces cross neither the mesh nor each other; of two that cross, the
 /// earlier one stays. @return indices of those that were not appended
 std::vector<std::size_t> append_verified(TriangleMesh& mesh, const std::vector<HoleFill>& fills);

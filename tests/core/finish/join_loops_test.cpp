@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "core/finish/clean_topology.h"
 #include "core/mesh/mesh_report.h"
 #include "core/mesh/self_intersection.h"
 #include "tests/core/finish/shapes.h"
@@ -108,6 +109,25 @@ TEST_CASE("a strip that something crosses is not made, and its loops are named")
   const auto hindered = std::count(joined.is_hindered.begin(), joined.is_hindered.end(), 1);
   REQUIRE(static_cast<std::size_t>(hindered) == report_mesh(mesh).boundary_edges - 3);
   REQUIRE(joined.is_hindered[first] == 0);
+}
+
+TEST_CASE("of a strip that something small crosses the rest is made, and joins the loops") {
+  const double gap = 2.0 * kSide;
+  TriangleMesh mesh = cut_torus(gap);
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (const double across : {-0.5, 0.5, 0.0})  // a shred through the wall
+    mesh.positions.emplace_back(kAxisRadius + (1.0 + 0.2 * across) * kTubeRadius, 0.1 * across,
+                                across == 0.0 ? 0.1 : 0.0);
+  mesh.triangles.push_back({first, first + 1, first + 2});
+  const std::size_t edges = report_mesh(mesh).boundary_edges;
+  REQUIRE(join_loops(mesh, pieces_of(mesh), grid_of(torus_points(8, false, gap)), kSide).pairs ==
+          1);
+  CHECK(self_intersections(mesh).empty());
+  clean_topology(mesh);
+  const MeshReport report = report_mesh(mesh);
+  CHECK(report.is_manifold());
+  CHECK(report.components == 2);  // the shred is one
+  CHECK(report.boundary_edges < edges / 2);
 }
 
 TEST_CASE("where a tube is 2 h wide, loops that cannot be joined are named if it is a hole") {

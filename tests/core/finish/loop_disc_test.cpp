@@ -50,8 +50,7 @@ TEST_CASE("toward the axis of a disc is straight to it, from wherever along it")
 
 TEST_CASE("the middle of a disc is half as wide, and as far along its axis") {
   const LoopDisc disc = disc_of_loop(on_circle(even_angles(64)));
-  const double radius = middle_radius(disc);
-  CHECK(radius == Approx(1.0).epsilon(1e-2));
+  const double radius = 0.5 * disc.radius;
   const auto count = [&](const Vec3& offset) {
     const std::vector<Vec3> points{kMiddle + radius * offset};
     const PointGrid grid(points, {kMiddle - Vec3(4.0), kMiddle + Vec3(4.0)}, 0.5);
@@ -61,6 +60,17 @@ TEST_CASE("the middle of a disc is half as wide, and as far along its axis") {
   CHECK(count({0.7, 0.99, 0.69}) == 1);
   CHECK(count({0.0, 0.0, 1.01}) == 0);
   CHECK(count({0.0, 1.01, 0.0}) == 0);
+}
+
+TEST_CASE("a circle on a wall with points is filled if some are in its middle, too") {
+  std::vector<Vec3> points = on_circle(even_angles(200));
+  const auto polygon = on_circle(even_angles(12));
+  const LoopDisc disc = disc_of_loop(polygon);
+  const Box region{kMiddle - Vec3(4.0), kMiddle + Vec3(4.0)};
+  CHECK(!is_filled(PointGrid(points, region, 0.5), polygon, disc));
+  for (int i = 0; i < 30; ++i)  // about 60 are as near to each corner
+    points.push_back(kMiddle + Vec3(0.02 * i, 0.01 * i, 0.0));
+  CHECK(is_filled(PointGrid(points, region, 0.5), polygon, disc));
 }
 
 TEST_CASE("a polygon to and fro encloses nothing") {
