@@ -50,8 +50,8 @@ struct FillChoice {
                                                     const HoleChoiceOptions& options);
 
 /// What a cloud shows inside of a hole, where a fill lies more than 1.5 h away from its loop; of a
-/// smaller one, there is air if the faces beside the loop look at its axis, around which no point
-/// is: they are the wall of a narrow hole.
+/// smaller one, there is air if the faces beside the loop look at its axis, around which hardly any
+/// point is: they are the wall of a narrow hole.
 enum class Inside {
   unknown,  ///< the hole is too small for that
   air,      ///< hardly any points

@@ -337,6 +337,7 @@ std::vector<Strip> take_one_for_each_loop(std::vector<Strip>& strips,
 /// filled as other holes are. Names the loops of others.
 void append_parts(TriangleMesh& mesh, const std::vector<Strip>& strips, JoinedLoops& joined) {
   const std::vector<HoleFill> parts = without_crossing_faces(mesh, fills_of(strips));
+  const std::size_t before = mesh.triangles.size();
   for (std::size_t i = 0; i < strips.size(); ++i) {
     const auto whole = static_cast<double>(strips[i].fill.triangles.size());
     if (static_cast<double>(parts[i].triangles.size()) >= kLeastPart * whole) {
@@ -346,7 +347,7 @@ void append_parts(TriangleMesh& mesh, const std::vector<Strip>& strips, JoinedLo
       mark(strips[i], joined.is_hindered);
     }
   }
-  clean_topology(mesh);
+  if (mesh.triangles.size() > before) clean_topology(mesh);  // parts may touch in a vertex
 }
 
 }  // namespace

@@ -13,14 +13,6 @@ namespace {
 constexpr double kSurroundings = 2.0;  // in distances
 constexpr std::size_t kPointsPerBlock = 512;
 
-std::size_t count_within(const PointGrid& points, const Vec3& place, double radius) {
-  std::size_t count = 0;
-  points.for_each_near(place, radius, [&](const Vec3& offset) {
-    count += glm::dot(offset, offset) <= radius * radius ? 1 : 0;
-  });
-  return count;
-}
-
 }  // namespace
 
 std::vector<Vec3> left_out_points(std::span<const Vec3> points, const TriangleMesh& mesh,
@@ -35,8 +27,8 @@ std::vector<Vec3> left_out_points(std::span<const Vec3> points, const TriangleMe
   std::vector<std::uint8_t> is_left_out(uncovered.size(), 0);
   parallel_for(uncovered.size(), kPointsPerBlock, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const std::size_t around = count_within(all, uncovered[i], radius);
-      is_left_out[i] = 2 * count_within(missed, uncovered[i], radius) >= around ? 1 : 0;
+      const std::size_t around = all.count_within(uncovered[i], radius);
+      is_left_out[i] = 2 * missed.count_within(uncovered[i], radius) >= around ? 1 : 0;
     }
   });
   std::vector<Vec3> left_out;

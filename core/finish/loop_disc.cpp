@@ -9,14 +9,6 @@ namespace {
 constexpr double kMiddle = 0.5;         ///< of the radius
 constexpr double kLeastDensity = 0.25;  ///< of that around the polygon
 
-std::size_t points_within(const PointGrid& cloud, const Vec3& place, double radius) {
-  std::size_t count = 0;
-  cloud.for_each_near(place, radius, [&](const Vec3& offset) {
-    count += glm::dot(offset, offset) <= radius * radius ? 1 : 0;
-  });
-  return count;
-}
-
 }  // namespace
 
 LoopDisc disc_of_loop(std::span<const Vec3> points) {
@@ -61,7 +53,7 @@ bool is_filled(const PointGrid& cloud, std::span<const Vec3> polygon, const Loop
   if (inside == 0) return false;
   std::size_t along = 0;
   for (const Vec3& p : polygon)
-    along += points_within(cloud, p, kMiddle * disc.radius);
+    along += cloud.count_within(p, kMiddle * disc.radius);
   return static_cast<double>(inside * polygon.size()) >= kLeastDensity * static_cast<double>(along);
 }
 

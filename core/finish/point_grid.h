@@ -64,6 +64,15 @@ class PointGrid {
     return found;
   }
 
+  /// How many points lie within `radius` of the place.
+  [[nodiscard]] std::size_t count_within(const Vec3& place, double radius) const {
+    std::size_t count = 0;
+    for_each_near(place, radius, [&](const Vec3& offset) {
+      count += glm::dot(offset, offset) <= radius * radius ? 1 : 0;
+    });
+    return count;
+  }
+
   /// The same as for_each_near with how many points it counts as, visit(offset, count), but for
   /// points that are known to face away from a unit normal (by more than 101 degrees).
   template <class Visit>

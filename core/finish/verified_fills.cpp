@@ -29,6 +29,13 @@ Trial make_trial(const TriangleMesh& mesh, const std::vector<HoleFill>& fills) {
   return trial;
 }
 
+/// Those with a new face, which is the second one (or both are).
+std::vector<std::pair<std::uint32_t, std::uint32_t>> crossing_pairs(const Trial& trial) {
+  std::vector<std::uint32_t> added(trial.fill_of.size());
+  std::iota(added.begin(), added.end(), static_cast<std::uint32_t>(trial.old_faces));
+  return self_intersections(trial.mesh, added);
+}
+
 struct FillVerdict {
   std::vector<std::uint8_t> fails;        ///< flags of the fills that must go
   std::vector<std::uint32_t> obstructed;  ///< VerifiedFills::obstructed
@@ -36,9 +43,7 @@ struct FillVerdict {
 
 FillVerdict judge_fills(const TriangleMesh& mesh, const std::vector<HoleFill>& fills) {
   const Trial trial = make_trial(mesh, fills);
-  std::vector<std::uint32_t> added(trial.fill_of.size());
-  std::iota(added.begin(), added.end(), static_cast<std::uint32_t>(trial.old_faces));
-  const auto pairs = self_intersections(trial.mesh, added);
+  const auto pairs = crossing_pairs(trial);
   FillVerdict verdict;
   for (const auto& pair : pairs) {
     for (const std::uint32_t face : {pair.first, pair.second}) {
@@ -51,7 +56,7 @@ FillVerdict judge_fills(const TriangleMesh& mesh, const std::vector<HoleFill>& f
   std::vector<std::uint8_t>& fails = verdict.fails;
   fails.assign(fills.size(), 0);
   const auto fill_of = [&](std::uint32_t face) { return trial.fill_of[face - trial.old_faces]; };
-  for (const auto& [i, j] : pairs) {  // j > i is always a new face
+  for (const auto& [i, j] : pairs) {
     if (i < trial.old_faces || fill_of(i) == fill_of(j)) fails[fill_of(j)] = 1;
   }
   for (const auto& [i, j] : pairs) {
@@ -152,12 +157,11 @@ VerifiedFills fill_verified(TriangleMesh& mesh, const CornerTable& table,
 
 std::vector<HoleFill> without_crossing_faces(const TriangleMesh& mesh,
                                              std::vector<HoleFill> fills) {
+  if (fills.empty()) return fills;
   const Trial trial = make_trial(mesh, fills);
-  std::vector<std::uint32_t> added(trial.fill_of.size());
-  std::iota(added.begin(), added.end(), static_cast<std::uint32_t>(trial.old_faces));
-  const auto pairs = self_intersections(trial.mesh, added);
+  const auto pairs = crossing_pairs(trial);
   std::vector<std::uint8_t> goes(trial.mesh.triangles.size(), 0);
-  for (const auto& [i, j] : pairs) {
+  for (const auto& [i, j] : pairs) {  // first, since what goes is in no other's way
     if (i < trial.old_faces) goes[j] = 1;
   }
   for (const auto& [i, j] : pairs) {
