@@ -208,13 +208,29 @@ constexpr double kAirChord = 4.0;
 /// Points that happen to lie far apart let a little of any surface look like air.
 constexpr double kMuchLess = 0.5;
 
-/// The shortest allowed chord that leaves enough of the loop on either side.
-std::optional<Chord> dividing_chord(const LoopShape& shape, const Piece& piece) {
+/// Other chords to divide a loop by first, where what the shortest gives leads through air.
+constexpr int kOtherChords = 3;
+/// Of the points of a loop: how far the ends of these lie from those of one that was tried.
+constexpr std::size_t kApartByPart = 8;
+
+/// Whether a point of a loop of n lies near the end of a chord.
+bool is_near_end(std::size_t i, const std::vector<Chord>& chords, std::size_t n) {
+  return std::any_of(chords.begin(), chords.end(), [&](const Chord& chord) {
+    const std::size_t a = i > chord.from ? i - chord.from : chord.from - i;
+    const std::size_t b = i > chord.to ? i - chord.to : chord.to - i;
+    return kApartByPart * std::min({a, n - a, b, n - b}) < n;
+  });
+}
+
+/// The shortest allowed chord that leaves enough of the loop on either side, away from others.
+std::optional<Chord> dividing_chord(const LoopShape& shape, const Piece& piece,
+                                    const std::vector<Chord>& others) {
   const std::size_t n = piece.points.size();
   const std::size_t least = std::max<std::size_t>(2, n / kDivideIntoAtLeast);
   std::optional<Chord> best;
   double best_length = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < n; ++i) {
+    if (is_near_end(i, others, n)) continue;
     const Vec3& a = shape.points[piece.points[i]];
     for (std::size_t k = i + least; k < n && n - (k - i) >= least; ++k) {
       const Vec3 d = shape.points[piece.points[k]] - a;
@@ -224,6 +240,7 @@ std::optional<Chord> dividing_chord(const LoopShape& shape, const Piece& piece) 
         length *= kAirChord * kAirChord;
         if (length >= best_length) continue;
       }
+      if (is_near_end(k, others, n)) continue;
       best_length = length;
       best = Chord{i, k};
     }
@@ -264,6 +281,48 @@ std::vector<Triangle> triangulate_piece(const LoopShape& shape, const Piece& pie
   return area_in_air(shape, around) < kMuchLess * in_air ? around : blunt;
 }
 
+/// Divides pieces until they are short enough. Empty if one cannot be divided or triangulated.
+std::vector<Triangle> triangulate_pieces(const LoopShape& shape, std::vector<Piece> open) {
+  std::vector<Triangle> triangles;
+  while (!open.empty()) {
+    const Piece piece = std::move(open.back());
+    open.pop_back();
+    if (piece.points.size() > kMaxDirectEdges) {
+      const std::optional<Chord> chord = dividing_chord(shape, piece, {});
+      if (!chord) return {};
+      open.push_back(part_of(piece, chord->from, chord->to));
+      open.push_back(part_of(piece, chord->to, chord->from));
+      continue;
+    }
+    const std::vector<Triangle> part = triangulate_piece(shape, piece);
+    if (part.empty()) return {};
+    triangles.insert(triangles.end(), part.begin(), part.end());
+  }
+  return triangles;
+}
+
+/// Of a long loop. The shortest chord may part the two rims of a crack all around a tube from each
+/// other, beside the bridge between them: then each is closed across the tube, and another chord
+/// divides the crack.
+std::vector<Triangle> triangulate_divided(const LoopShape& shape, const Piece& whole) {
+  std::vector<Triangle> best;
+  double least_air = kInfinity;
+  std::vector<Chord> tried;
+  for (int k = 0; k <= kOtherChords && least_air > 0.0; ++k) {
+    const std::optional<Chord> chord = dividing_chord(shape, whole, tried);
+    if (!chord) break;
+    tried.push_back(*chord);
+    std::vector<Triangle> triangles = triangulate_pieces(
+        shape, {part_of(whole, chord->from, chord->to), part_of(whole, chord->to, chord->from)});
+    if (triangles.empty()) continue;
+    const double air = shape.is_in_air ? area_in_air(shape, triangles) : 0.0;
+    if (!best.empty() && air >= kMuchLess * least_air) continue;
+    best = std::move(triangles);
+    least_air = air;
+  }
+  return best;
+}
+
 }  // namespace
 
 LoopShape shape_of(const BoundaryLoop& loop, const CornerTable& table,
@@ -284,29 +343,13 @@ LoopShape shape_of(const BoundaryLoop& loop, const CornerTable& table,
 }
 
 std::vector<Triangle> triangulate_loop(const LoopShape& shape) {
-  std::vector<Triangle> triangles;
-  if (shape.points.size() < 3) return triangles;
+  if (shape.points.size() < 3) return {};
   Piece whole;
   for (std::uint32_t i = 0; i < shape.points.size(); ++i)
     whole.points.push_back(i);
   whole.edge_normals = shape.edge_normals;
-  std::vector<Piece> open{std::move(whole)};
-  while (!open.empty()) {
-    const Piece piece = std::move(open.back());
-    open.pop_back();
-    if (piece.points.size() > kMaxDirectEdges) {
-      if (const std::optional<Chord> chord = dividing_chord(shape, piece)) {
-        open.push_back(part_of(piece, chord->from, chord->to));
-        open.push_back(part_of(piece, chord->to, chord->from));
-        continue;
-      }
-      return {};
-    }
-    const std::vector<Triangle> part = triangulate_piece(shape, piece);
-    if (part.empty()) return {};
-    triangles.insert(triangles.end(), part.begin(), part.end());
-  }
-  return triangles;
+  if (whole.points.size() <= kMaxDirectEdges) return triangulate_piece(shape, whole);
+  return triangulate_divided(shape, whole);
 }
 
 }  // namespace rangezip

@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 #include <queue>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,8 @@
 #include "core/finish/components.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/loop_neighbors.h"
+#include "core/finish/places_near.h"
+#include "core/finish/point_grid.h"
 #include "core/finish/vertex_geometry.h"
 
 namespace rangezip {
@@ -29,6 +32,9 @@ constexpr double kFold = -0.5;
 constexpr std::size_t kMinParted = 500;  ///< faces; fewer between folds are a crumpled place
 /// Edges on each side of a place of a boundary that tell its directions.
 constexpr std::size_t kBeside = 4;
+/// In h: so much of what is turned goes where it continues the other: no seam has joined the two,
+/// and noise lets them lie over each other.
+constexpr double kOverlap = 1.0;
 /// How far the way across may rise over the plane of a face: of its length, and in h.
 constexpr double kMaxSlope = 0.5;
 constexpr double kRoughness = 0.25;
@@ -61,6 +67,13 @@ struct Votes {
 struct Meeting {
   std::uint32_t other = 0;  ///< component
   Votes votes;
+};
+
+/// A place where the boundaries of two components come near each other.
+struct Contact {
+  std::uint32_t component_a, component_b;
+  Rim a, b;
+  bool is_joint = false;  ///< one continues the other, whichever way their faces look
 };
 
 /// A mesh of which no two pieces share a vertex, where folds part pieces.
@@ -153,6 +166,7 @@ class Orienter {
       if (c >= sizes_.size()) sizes_.resize(c + 1, 0);
       ++sizes_[c];
     }
+    if (sizes_.size() > 1) contacts_ = find_contacts();
   }
 
   /// Of each component, whether it is to be turned: from the largest on always the one that meets
@@ -185,6 +199,17 @@ class Orienter {
   }
 
   [[nodiscard]] std::uint32_t component_of(std::size_t face) const { return component_[face]; }
+
+  /// The places on the boundaries of what stays at which something turned goes on from there.
+  [[nodiscard]] std::vector<Vec3> joints(const std::vector<std::uint8_t>& is_turned) const {
+    std::vector<Vec3> places;
+    for (const Contact& contact : contacts_) {
+      const bool is_a = is_turned[contact.component_a] != 0;
+      if (contact.is_joint && is_a != (is_turned[contact.component_b] != 0))
+        places.push_back(is_a ? contact.b.place : contact.a.place);
+    }
+    return places;
+  }
 
  private:
   [[nodiscard]] std::uint32_t component_at(std::uint32_t loop) const {
@@ -237,9 +262,8 @@ class Orienter {
            std::abs(glm::dot(way, a.normal)) <= rise && std::abs(glm::dot(way, b.normal)) <= rise;
   }
 
-  /// Of each component with others.
-  [[nodiscard]] std::vector<std::vector<Meeting>> find_meetings() const {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, Votes> pairs;
+  [[nodiscard]] std::vector<Contact> find_contacts() const {
+    std::vector<Contact> contacts;
     const auto are_wanted = [&](std::uint32_t a, std::uint32_t b) {
       return component_at(a) != component_at(b);
     };
@@ -247,9 +271,18 @@ class Orienter {
          loop_neighbors(loops_, table_, positions_, kMaxGap * h_, are_wanted)) {
       if (is_at_fold(n.loop_a, n.place_a) || is_at_fold(n.loop_b, n.place_b)) continue;
       const Rim a = rim_at(n.loop_a, n.place_a), b = rim_at(n.loop_b, n.place_b);
-      Votes& votes = pairs[std::minmax(component_at(n.loop_a), component_at(n.loop_b))];
+      contacts.push_back({component_at(n.loop_a), component_at(n.loop_b), a, b, do_continue(a, b)});
+    }
+    return contacts;
+  }
+  /// Of each component with others.
+  [[nodiscard]] std::vector<std::vector<Meeting>> find_meetings() const {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Votes> pairs;
+    for (const Contact& contact : contacts_) {
+      Votes& votes = pairs[std::minmax(contact.component_a, contact.component_b)];
       ++votes.all;
-      if (do_continue(a, b)) ++(glm::dot(a.normal, b.normal) > 0.0 ? votes.same : votes.opposite);
+      if (contact.is_joint)
+        ++(glm::dot(contact.a.normal, contact.b.normal) > 0.0 ? votes.same : votes.opposite);
     }
     std::vector<std::vector<Meeting>> meetings(sizes_.size());
     for (const auto& [pair, votes] : pairs) {
@@ -266,7 +299,31 @@ class Orienter {
   std::vector<BoundaryLoop> loops_;
   std::vector<std::uint32_t> component_;  ///< of each face
   std::vector<std::size_t> sizes_;        ///< faces of each component
+  std::vector<Contact> contacts_;
 };
+
+/// Turns faces around. @param is_turned of faces
+void turn(std::vector<Triangle>& triangles, const std::vector<std::uint8_t>& is_turned) {
+  for (std::size_t f = 0; f < triangles.size(); ++f) {
+    if (is_turned[f] != 0) std::swap(triangles[f][1], triangles[f][2]);
+  }
+}
+
+/// Parts turned faces from what they continue, by a gap that fills close.
+void open_joints(TriangleMesh& mesh, const std::vector<std::uint8_t>& is_turned,
+                 std::span<const Vec3> joints, double pixel_size) {
+  const double reach = kOverlap * pixel_size;
+  Box box;
+  for (const Vec3& p : joints)
+    box.add(p);
+  const PointGrid grid(joints, box, reach);
+  remove_triangles(mesh.triangles, flags_of(mesh.triangles.size(), [&](std::size_t f) {
+                     const Triangle& t = mesh.triangles[f];
+                     return is_turned[f] != 0 && std::any_of(t.begin(), t.end(), [&](auto v) {
+                              return grid.has_point_within(mesh.positions[v], reach);
+                            });
+                   }));
+}
 
 }  // namespace
 
@@ -274,12 +331,14 @@ std::size_t orient_pieces(TriangleMesh& mesh, double pixel_size) {
   const PartedMesh parted = parted_at_folds(mesh);
   const Orienter orienter(parted, pixel_size);
   const std::vector<std::uint8_t> is_turned = orienter.turned();
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    if (is_turned[orienter.component_of(f)] != 0)
-      std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
-  }
   const auto count = static_cast<std::size_t>(std::count(is_turned.begin(), is_turned.end(), 1));
-  if (count > 0) clean_topology(mesh);  // at the folds by which turned pieces hung
+  if (count == 0) return 0;
+  const std::vector<std::uint8_t> is_turned_face =
+      flags_of(mesh.triangles.size(),
+               [&](std::size_t f) { return is_turned[orienter.component_of(f)] != 0; });
+  turn(mesh.triangles, is_turned_face);
+  open_joints(mesh, is_turned_face, orienter.joints(is_turned), pixel_size);
+  clean_topology(mesh);  // at the folds by which turned pieces hung
   return count;
 }
 

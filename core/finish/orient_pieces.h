@@ -19,11 +19,12 @@ namespace rangezip {
 /// those that are at most places, as many as half of its boundary has vertices: it is turned if at
 /// a third of these it continues them, facing the other way, and hardly anywhere facing the same.
 /// The two sides of a plate, whose boundaries end the same way, stay as they are, and so do two
-/// walls of which each has a part only.
+/// walls of which each has a part only. What is turned then ends 1 h before what it continues: no
+/// seam has joined the two, and where noise lets one lie over the other, nothing else could.
 /// O(faces), and what loop_neighbors() costs.
 /// @param pixel_size h, model units; positive
-/// @pre oriented and manifold; stays so. Positions stay, and faces but for a few at folds by which
-///     pieces hung that were turned.
+/// @pre oriented and manifold; stays so. Positions stay, and faces but for those at joints and a
+///     few at folds by which pieces hung that were turned.
 /// @return components turned
 std::size_t orient_pieces(TriangleMesh& mesh, double pixel_size);
 

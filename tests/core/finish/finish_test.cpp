@@ -384,7 +384,8 @@ TEST_CASE("a piece that faces the wrong way is turned, and becomes a part of the
   for (Triangle& t : mesh.triangles) {
     if (mesh.positions[t[0]].z > 0.5) std::swap(t[1], t[2]);
   }
-  const FinishResult result = finish(mesh, {}, options_for(kN, FinishMethod::fast));
+  const FinishResult result =
+      finish(mesh, sphere_points(40000, 1), options_for(kN, FinishMethod::fast));
   require_clean(result.mesh);
   CHECK(result.report.turned_pieces == 1);
   CHECK(report_mesh(result.mesh).components == 1);
