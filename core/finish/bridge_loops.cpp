@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/finish/loop_neighbors.h"
@@ -15,6 +16,8 @@ namespace {
 /// In h: how far apart the sides of a crack may be, and the longer edges of a bridge.
 constexpr double kMaxGap = 3.0;
 constexpr double kMaxBridgeLength = 4.0;
+constexpr std::size_t kEndsByPart = 4;  ///< of a run: an end of it is as much
+constexpr std::uint32_t kApart = 3;     ///< places, between two bridges
 /// In h: sides of a crack so far apart have points between them.
 constexpr double kTellingGap = 1.6;
 /// Cosines: between the two faces of a bridge, and between them and the faces beside it.
@@ -30,30 +33,94 @@ class Bridger {
         table_(pieces.table),
         loops_(pieces.loops),
         component_(pieces.component),
+        is_bridged_(loops_.size(), 0),
         joined_(component_.empty() ? 0
                                    : 1 + *std::max_element(component_.begin(), component_.end())) {
     std::iota(joined_.begin(), joined_.end(), 0U);
   }
 
-  std::size_t run() {
-    if (joined_.size() < 2) return 0;
-    const std::vector<LoopNeighbors> neighbors = loop_neighbors(
-        loops_, table_, mesh_.positions, kMaxGap * h_,
-        [&](std::uint32_t a, std::uint32_t b) { return component_of(a) != component_of(b); });
-    std::vector<std::uint8_t> is_bridged(loops_.size(), 0);
+  /// What bridge_loops() does.
+  std::size_t join_loops() {
     std::size_t bridges = 0;
+    const std::vector<LoopNeighbors> neighbors = find_neighbors();
     for (const std::span<const LoopNeighbors> pairs : loops_side_by_side(neighbors, loops_)) {
-      const std::uint32_t a = pairs.front().loop_a, b = pairs.front().loop_b;
-      if (is_bridged[a] != 0 || is_bridged[b] != 0 || component_of(a) == component_of(b)) continue;
-      if (!bridge_one(pairs)) continue;
-      is_bridged[a] = is_bridged[b] = 1;
-      join(component_of(a), component_of(b));
+      if (!are_free(pairs.front())) continue;
+      between_.clear();
+      if (!is_crack(pairs) || !bridge_one(pairs)) continue;
+      note_joined(pairs.front());
       ++bridges;
     }
     return bridges;
   }
 
+  /// What bridge_runs() does: all runs of two loops at once, which are one component afterwards.
+  std::size_t join_runs() {
+    std::size_t bridges = 0;
+    const std::vector<std::vector<LoopNeighbors>> runs =
+        runs_side_by_side(find_neighbors(), loops_);
+    for (std::size_t begin = 0, end = 0; begin < runs.size(); begin = end) {
+      const LoopNeighbors& first = runs[begin].front();
+      while (end < runs.size() && are_same_loops(runs[end].front(), first))
+        ++end;
+      if (!are_free(first)) continue;
+      between_.clear();
+      for (std::size_t i = begin; i < end; ++i)
+        bridge_ends(runs[i]);
+      if (between_.empty()) continue;
+      note_joined(first);
+      bridges += between_.size();
+    }
+    return bridges;
+  }
+
  private:
+  [[nodiscard]] std::vector<LoopNeighbors> find_neighbors() const {
+    return loop_neighbors(
+        loops_, table_, mesh_.positions, kMaxGap * h_,
+        [&](std::uint32_t a, std::uint32_t b) { return component_of(a) != component_of(b); });
+  }
+  static bool are_same_loops(const LoopNeighbors& p, const LoopNeighbors& q) {
+    return p.loop_a == q.loop_a && p.loop_b == q.loop_b;
+  }
+  [[nodiscard]] bool are_free(const LoopNeighbors& pair) const {
+    return is_bridged_[pair.loop_a] == 0 && is_bridged_[pair.loop_b] == 0 &&
+           component_of(pair.loop_a) != component_of(pair.loop_b);
+  }
+  void note_joined(const LoopNeighbors& pair) {
+    is_bridged_[pair.loop_a] = is_bridged_[pair.loop_b] = 1;
+    join(component_of(pair.loop_a), component_of(pair.loop_b));
+  }
+
+  /// At both ends of a run: what lies between becomes a loop of its own.
+  void bridge_ends(std::vector<LoopNeighbors> run) {
+    if (!is_crack(run)) return;
+    const auto part = static_cast<std::ptrdiff_t>(run.size() / kEndsByPart);
+    std::sort(run.begin(), run.begin() + part);
+    std::sort(run.end() - part, run.end());
+    bridge_one({run.begin(), run.begin() + part});
+    bridge_one({run.end() - part, run.end()});
+  }
+
+  /// Whether a bridge more between the same loops makes a hole of them, as what lies between two
+  /// bridges is, rather than a handle: as places follow along one loop, they go back on the other.
+  [[nodiscard]] bool is_in_order(const LoopNeighbors& pair) const {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> places{{pair.place_a, pair.place_b}};
+    for (const LoopNeighbors& other : between_)
+      places.emplace_back(other.place_a, other.place_b);
+    std::sort(places.begin(), places.end());
+    const auto na = static_cast<std::uint32_t>(loops_[pair.loop_a].corners.size());
+    const auto nb = static_cast<std::uint32_t>(loops_[pair.loop_b].corners.size());
+    std::uint32_t back = 0;  // along the second loop, from each place to the next one
+    for (std::size_t i = 0; places.size() > 1 && i < places.size(); ++i) {
+      const auto& [a, b] = places[i];
+      const auto& [next_a, next_b] = places[(i + 1) % places.size()];
+      const std::uint32_t step_a = (next_a + na - a) % na, step_b = (b + nb - next_b) % nb;
+      if (step_a < kApart || step_b < kApart) return false;
+      back += step_b;
+    }
+    return back <= nb;
+  }
+
   [[nodiscard]] std::uint32_t component_of(std::uint32_t loop) const {
     return joined_[component_[loops_[loop].corners[0] / 3]];
   }
@@ -88,7 +155,6 @@ class Bridger {
 
   /// Tries the pairs of two loops, the nearest first.
   bool bridge_one(std::span<const LoopNeighbors> pairs) {
-    if (!is_crack(pairs)) return false;
     for (const LoopNeighbors& pair : pairs) {
       const auto& corners_a = loops_[pair.loop_a].corners;
       const auto& corners_b = loops_[pair.loop_b].corners;
@@ -105,6 +171,8 @@ class Bridger {
       if (glm::dot(n2, normal_of(table_.triangle(edge_b / 3))) < kMinCosineBeside) continue;
       if (glm::length(mesh_.positions[a2] - mesh_.positions[b2]) > kMaxBridgeLength * h_) continue;
       if (!is_shown(a, b) || !is_shown(a2, b) || !is_shown(a2, b2)) continue;
+      if (!is_in_order(pair)) continue;
+      between_.push_back(pair);
       mesh_.triangles.push_back(first);
       mesh_.triangles.push_back(second);
       return true;
@@ -118,14 +186,21 @@ class Bridger {
   const CornerTable& table_;
   const std::vector<BoundaryLoop>& loops_;
   const std::vector<std::uint32_t>& component_;
-  std::vector<std::uint32_t> joined_;  ///< one name for all components that bridges joined
+  std::vector<std::uint8_t> is_bridged_;  ///< of loops
+  std::vector<std::uint32_t> joined_;     ///< one name for all components that bridges joined
+  std::vector<LoopNeighbors> between_;    ///< the two loops that are joined: bridges so far
 };
 
 }  // namespace
 
 std::size_t bridge_loops(TriangleMesh& mesh, const MeshPieces& pieces, const PointGrid& cloud,
                          double pixel_size) {
-  return Bridger(mesh, pieces, cloud, pixel_size).run();
+  return Bridger(mesh, pieces, cloud, pixel_size).join_loops();
+}
+
+std::size_t bridge_runs(TriangleMesh& mesh, const MeshPieces& pieces, const PointGrid& cloud,
+                        double pixel_size) {
+  return Bridger(mesh, pieces, cloud, pixel_size).join_runs();
 }
 
 }  // namespace rangezip

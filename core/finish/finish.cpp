@@ -329,6 +329,7 @@ FinishResult finish(TriangleMesh mesh, std::span<const Vec3> cloud, const Finish
   PointGrid points(cloud, region_of(mesh, kRegionMargin * h), kPointCell * h);
   clean_topology(mesh);
   result.report.turned_pieces = orient_pieces(mesh, h);
+  if (result.report.turned_pieces > 0) close_joints(mesh, points, options, result.report, progress);
   grow_and_close(mesh, cloud, points, options, result.report, progress);
   remove_thin_handles(mesh, points, options, result.report, progress);
   zip_open_loops(mesh, points, options, result.report);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <tuple>
 #include <utility>
 
 namespace rangezip {
@@ -9,6 +10,9 @@ namespace {
 
 /// Loops run beside each other if at least this many vertices, and half of the shorter loop, do.
 constexpr std::size_t kMinBeside = 4;
+/// Runs of parts of them: neighbours, and how many places further on the next one may be.
+constexpr std::size_t kMinRun = 16;
+constexpr std::uint32_t kMaxStep = 4;
 
 /// A vertex of a boundary, numbered over all loops.
 struct BoundaryVertex {
@@ -46,6 +50,36 @@ void offer(std::vector<LoopNeighbors>& nearest, const LoopNeighbors& entry) {
   }
 }
 
+/// Calls visit(neighbors) for each pair of loops.
+template <class Visit>
+void for_each_pair(std::span<const LoopNeighbors> neighbors, const Visit& visit) {
+  for (std::size_t begin = 0, end = 0; begin < neighbors.size(); begin = end) {
+    const LoopNeighbors& first = neighbors[begin];
+    while (end < neighbors.size() && neighbors[end].loop_a == first.loop_a &&
+           neighbors[end].loop_b == first.loop_b) {
+      ++end;
+    }
+    visit(neighbors.subspan(begin, end - begin));
+  }
+}
+
+/// In the order of the first loop, which has n places, from behind a gap on; empty if there is
+/// none.
+std::vector<LoopNeighbors> sorted_from_gap(std::span<const LoopNeighbors> pairs, std::size_t n) {
+  std::vector<LoopNeighbors> sorted(pairs.begin(), pairs.end());
+  std::sort(sorted.begin(), sorted.end(), [](const LoopNeighbors& p, const LoopNeighbors& q) {
+    return std::tie(p.place_a, p.place_b) < std::tie(q.place_a, q.place_b);
+  });
+  if (sorted.front().place_a + n - sorted.back().place_a > kMaxStep) return sorted;
+  const auto gap = std::adjacent_find(sorted.begin(), sorted.end(),
+                                      [](const LoopNeighbors& p, const LoopNeighbors& q) {
+                                        return q.place_a - p.place_a > kMaxStep;
+                                      });
+  if (gap == sorted.end()) return {};
+  std::rotate(sorted.begin(), gap + 1, sorted.end());
+  return sorted;
+}
+
 }  // namespace
 
 std::vector<LoopNeighbors> loop_neighbors(
@@ -77,19 +111,32 @@ std::vector<LoopNeighbors> loop_neighbors(
 
 std::vector<std::span<const LoopNeighbors>> loops_side_by_side(
     std::span<const LoopNeighbors> neighbors, std::span<const BoundaryLoop> loops) {
-  std::vector<std::span<const LoopNeighbors>> pairs;
-  for (std::size_t begin = 0, end = 0; begin < neighbors.size(); begin = end) {
-    const LoopNeighbors& first = neighbors[begin];
-    while (end < neighbors.size() && neighbors[end].loop_a == first.loop_a &&
-           neighbors[end].loop_b == first.loop_b) {
-      ++end;
+  std::vector<std::span<const LoopNeighbors>> found;
+  for_each_pair(neighbors, [&](std::span<const LoopNeighbors> pairs) {
+    const std::size_t shorter = std::min(loops[pairs.front().loop_a].corners.size(),
+                                         loops[pairs.front().loop_b].corners.size());
+    if (pairs.size() >= std::max(kMinBeside, shorter / 2)) found.push_back(pairs);
+  });
+  return found;
+}
+
+std::vector<std::vector<LoopNeighbors>> runs_side_by_side(std::span<const LoopNeighbors> neighbors,
+                                                          std::span<const BoundaryLoop> loops) {
+  std::vector<std::vector<LoopNeighbors>> runs;
+  for_each_pair(neighbors, [&](std::span<const LoopNeighbors> pairs) {
+    const std::size_t n = loops[pairs.front().loop_a].corners.size();
+    std::vector<LoopNeighbors> run;
+    const auto end_run = [&] {
+      if (run.size() >= kMinRun) runs.push_back(run);
+      run.clear();
+    };
+    for (const LoopNeighbors& pair : sorted_from_gap(pairs, n)) {
+      if (!run.empty() && (pair.place_a + n - run.back().place_a) % n > kMaxStep) end_run();
+      run.push_back(pair);
     }
-    const std::size_t shorter =
-        std::min(loops[first.loop_a].corners.size(), loops[first.loop_b].corners.size());
-    if (end - begin >= std::max(kMinBeside, shorter / 2))
-      pairs.push_back(neighbors.subspan(begin, end - begin));
-  }
-  return pairs;
+    end_run();
+  });
+  return runs;
 }
 
 }  // namespace rangezip

@@ -29,7 +29,7 @@ constexpr double kAlike = 0.5;
 /// Between two faces: what hangs together by such edges only are two pieces. The one may be the
 /// inside of what the other is the outside of, where a seam has caught an edge of it.
 constexpr double kFold = -0.5;
-constexpr std::size_t kMinParted = 500;  ///< faces; fewer between folds are a crumpled place
+constexpr std::size_t kMinParted = 50;  ///< faces; fewer between folds are a crumpled place
 /// Edges on each side of a place of a boundary that tell its directions.
 constexpr std::size_t kBeside = 4;
 /// In h: so much of what is turned goes where it continues the other: no seam has joined the two,

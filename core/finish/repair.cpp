@@ -35,6 +35,7 @@ constexpr std::size_t kAroundObstacle = 2;
 /// In h: loops up to this that cannot be closed otherwise are zipped.
 constexpr double kLongestZipped = 60.0;
 
+constexpr int kJointPasses = 3;             ///< of bridges: a loop gets one in each
 constexpr int kZipPasses = 2;               ///< of {zip what stays, close what that parts from it}
 constexpr int kLastRounds = 6;              ///< of {ears, widen what is left}
 constexpr std::size_t kNoisePoints = 2000;  ///< that tell it
@@ -176,7 +177,7 @@ class Repairer {
       progress.check_stop();
       clean_topology(mesh_);
       MeshPieces pieces = look_at_pieces();
-      bridge(pieces);
+      bridge(pieces, bridge_loops);
       drop_small(pieces);
       const bool is_last = round + 1 == options_.rounds;
       choice_.leaves_gaps = !is_last;  // which the next one chooses for
@@ -189,6 +190,23 @@ class Repairer {
         widen(mesh_, outcome.unfilled);
       }
     }
+  }
+
+  /// Bridges the joints of turned pieces. @return all loops that no bridge has to do with
+  [[nodiscard]] SettledLoops bridge_joints() {
+    const std::size_t before = mesh_.triangles.size();
+    MeshPieces pieces = look_at_pieces();
+    for (int pass = 0; pass < kJointPasses; ++pass) {
+      const std::size_t bridged = mesh_.triangles.size();
+      bridge(pieces, bridge_runs);
+      bridge(pieces, bridge_loops);
+      if (mesh_.triangles.size() == bridged) break;
+    }
+    std::erase_if(pieces.loops, [&](const BoundaryLoop& loop) {
+      return std::any_of(loop.corners.begin(), loop.corners.end(),
+                         [&](std::uint32_t c) { return c / 3 >= before; });
+    });
+    return SettledLoops(pieces.loops, pieces.table);
   }
 
   /// What zip_open_loops() does.
@@ -207,9 +225,10 @@ class Repairer {
   }
 
   /// Bridges whose faces cross anything are taken back.
-  void bridge(MeshPieces& pieces) {
+  template <class Bridge>
+  void bridge(MeshPieces& pieces, const Bridge& bridge) {
     const std::size_t before = mesh_.triangles.size();
-    std::size_t bridges = bridge_loops(mesh_, pieces, cloud_, options_.pixel_size);
+    std::size_t bridges = bridge(mesh_, pieces, cloud_, options_.pixel_size);
     if (bridges == 0) return;
     std::vector<std::uint32_t> added(mesh_.triangles.size() - before);
     std::iota(added.begin(), added.end(), static_cast<std::uint32_t>(before));
@@ -337,6 +356,13 @@ void repair(TriangleMesh& mesh, const Pairs& crossing, const SettledLoops& settl
   // From here on nothing crosses: faces only go, and what comes is checked.
   Repairer(mesh, settled, cloud, options, report).close_in_rounds(progress);
   remove_unused_vertices(mesh);
+}
+
+void close_joints(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
+                  FinishReport& report, const Progress& progress) {
+  const SettledLoops none;
+  const SettledLoops others = Repairer(mesh, none, cloud, options, report).bridge_joints();
+  Repairer(mesh, others, cloud, options, report).close_in_rounds(progress);
 }
 
 void zip_open_loops(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,

@@ -25,6 +25,12 @@ void repair(TriangleMesh& mesh,
             const SettledLoops& settled, const PointGrid& cloud, const FinishOptions& options,
             FinishReport& report, const Progress& progress);
 
+/// Joins what was turned (core/finish/orient_pieces.h) to what it continues, and repairs the cracks
+/// between, as repair() does; other loops stay as they are. Before anything grows: from both sides
+/// of a crack, it would grow over the other side. @pre oriented and manifold; stays so
+void close_joints(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
+                  FinishReport& report, const Progress& progress);
+
 /// Zips the loops that a repair has left open, and closes what that parts from them: what was cut
 /// away around a loop, or is left of a fill, may be cracks that lead into a hole. No face goes:
 /// what would cross something stays open. @pre as repair() leaves a mesh

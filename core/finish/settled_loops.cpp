@@ -12,6 +12,14 @@ SettledLoops::SettledLoops(const TriangleMesh& mesh) {
   std::sort(edges_.begin(), edges_.end());
 }
 
+SettledLoops::SettledLoops(std::span<const BoundaryLoop> loops, const CornerTable& table) {
+  for (const BoundaryLoop& loop : loops) {
+    for (const std::uint32_t c : loop.corners)
+      edges_.emplace_back(table.vertex(c), table.head(c));
+  }
+  std::sort(edges_.begin(), edges_.end());
+}
+
 bool SettledLoops::contain(const BoundaryLoop& loop, const CornerTable& table) const {
   return std::any_of(loop.corners.begin(), loop.corners.end(), [&](std::uint32_t c) {
     return std::binary_search(edges_.begin(), edges_.end(),

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,9 @@ class SettledLoops {
 
   /// All loops of a mesh. O(n log n) in its border edges.
   explicit SettledLoops(const TriangleMesh& mesh);
+
+  /// Some of them.
+  SettledLoops(std::span<const BoundaryLoop> loops, const CornerTable& table);
 
   /// Whether a loop runs along that border, if only in part: a cut may have bitten into it.
   /// @param table of the mesh, whose vertices have kept their numbers

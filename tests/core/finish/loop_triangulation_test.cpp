@@ -21,16 +21,16 @@ constexpr double kRadius = 1.5;
 
 /// A crack around the wall of a tube along z, which a bridge of one edge interrupts: a loop along
 /// one side of it and back along the other. Beyond, the surface is that of a plate on either side.
-LoopShape crack_around_tube(double width) {
+LoopShape crack_around_tube(double width, int around = kAround, double radius = kRadius) {
   LoopShape shape;
   const auto add = [&](int i, double z, const Vec3& normal) {
-    const double angle = 2.0 * kPi * i / kAround;
-    shape.points.emplace_back(kRadius * std::cos(angle), kRadius * std::sin(angle), z);
+    const double angle = 2.0 * kPi * i / around;
+    shape.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
     shape.edge_normals.push_back(normal);
   };
-  for (int i = 0; i < kAround; ++i)
+  for (int i = 0; i < around; ++i)
     add(i, 0.0, Vec3(0.0, 0.0, 1.0));
-  for (int i = kAround - 1; i >= 0; --i)
+  for (int i = around - 1; i >= 0; --i)
     add(i, width, Vec3(0.0, 0.0, -1.0));
   shape.is_forbidden = [](std::uint32_t, std::uint32_t) { return false; };
   shape.long_side = 1.5 * kH;
@@ -38,7 +38,7 @@ LoopShape crack_around_tube(double width) {
 }
 
 double least_radius(const LoopShape& shape, const std::vector<Triangle>& triangles) {
-  double least = kRadius;
+  double least = 100.0;
   for (const Triangle& t : triangles) {
     const Vec3 middle = (shape.points[t[0]] + shape.points[t[1]] + shape.points[t[2]]) / 3.0;
     least = std::min(least, std::hypot(middle.x, middle.y));
@@ -58,6 +58,17 @@ TEST_CASE("a crack around a tube is closed along the wall where the tube is know
   const std::vector<Triangle> strip = triangulate_loop(shape);
   CHECK(strip.size() == shape.points.size() - 2);
   CHECK(least_radius(shape, strip) > 0.9 * kRadius);
+}
+
+TEST_CASE("a long crack around a tube is divided across, not along the bridge that interrupts it",
+          "[finish]") {
+  constexpr double kWide = 8.0;
+  LoopShape shape = crack_around_tube(3.0, 70, kWide);
+  REQUIRE(glm::distance(shape.points[0], shape.points[69]) < 3.0);  // the shortest chord
+  shape.is_in_air = [](const Vec3& place) { return std::hypot(place.x, place.y) < kWide - kH; };
+  const std::vector<Triangle> strip = triangulate_loop(shape);
+  CHECK(strip.size() == shape.points.size() - 2);
+  CHECK(least_radius(shape, strip) > 0.9 * kWide);
 }
 
 TEST_CASE("what is in the air either way is closed as if nothing were known", "[finish]") {
