@@ -93,8 +93,13 @@ Box region_of(const TriangleMesh& mesh, double margin) {
   return region;
 }
 
+std::size_t count_loops(const TriangleMesh& mesh) {
+  return boundary_loops(CornerTable(mesh.triangles, mesh.positions.size())).size();
+}
+
 /// Grows over what no scan has reached, and closes what is left open. Around what cannot be closed
-/// faces go: there it grows again.
+/// faces go: there it grows again, unless that leaves more open than there was: between noisy walls
+/// it may join one to the other.
 void grow_and_close(TriangleMesh& mesh, std::span<const Vec3> cloud, const PointGrid& points,
                     const FinishOptions& options, FinishReport& report, const Progress& progress) {
   if (options.regrow)
@@ -102,11 +107,18 @@ void grow_and_close(TriangleMesh& mesh, std::span<const Vec3> cloud, const Point
   repair(mesh, self_intersections(mesh), {}, points, options, report, progress);
   if (report.regrown_faces == 0) return;
   for (int round = 1; round < kRegrowRounds; ++round) {
-    const TriangleMesh clean = geometry_of(mesh);
-    report.regrown_faces += regrow(mesh, cloud, points, options.pixel_size, progress);
+    const TriangleMesh clean = mesh;
+    const FinishReport before = report;
+    const std::size_t regrown = regrow(mesh, cloud, points, options.pixel_size, progress);
     const FaceChanges changes = find_face_changes(clean, mesh);
     if (changes.made.empty() && changes.gone.empty()) return;
     repair(mesh, self_intersections(mesh, changes.made), {}, points, options, report, progress);
+    if (count_loops(mesh) > count_loops(clean)) {
+      mesh = clean;
+      report = before;
+      return;
+    }
+    report.regrown_faces += regrown;
   }
 }
 
