@@ -204,6 +204,10 @@ CASES = [
     made('bell', [Bound('components', '==', 1), Bound('boundary_loops', '==', 1), Bound('cloud_within_05', '>=', 0.998),
                   Bound('inverted_share', '<=', 0.01, True)]),
     made('bowl', [Bound('components', '==', 1), Bound('boundary_loops', '==', 1)], RIGHT_SIDE_OUT),
+    # Seen from both sides, open above and below; and with noise over a quarter of a pixel side.
+    made('pipe', [Bound('components', '==', 1), Bound('boundary_loops', '==', 2)], RIGHT_SIDE_OUT),
+    *(made(f'{thing} 0.1', [Bound('components', '==', 1), Bound('boundary_loops', '==', 2 if thing == 'pipe' else 1),
+                            Bound('cloud_within_05', '>=', 0.998)]) for thing in ('bell', 'bowl', 'pipe')),
     made('plate 0.3'), made('plate 0.9'), body('plate 2', 0), body('plate 3', 0), body('plate 5', 0),
     made('shell 0.3'), made('shell 0.9'), body('shell 2', 0), body('shell 3', 0), body('shell 5', 0),
     body('cube', 0, RIGHT_SIDE_OUT),

@@ -369,8 +369,9 @@ def make(name):
         'sphere': lambda: drawn(sphere(60), 1),
         'torus': lambda: drawn(torus(50, 20), 2, genus=1),
         'trefoil': lambda: drawn(trefoil(24, 9), 3, genus=1),
-        'bell': lambda: drawn(bell(), 23),
-        'bowl': lambda: drawn(revolved(*arc(60, np.pi / 2, np.pi, 100), closed=False), 4),
+        'bell': lambda: drawn(bell(), 23, noise=size / 100),
+        'bowl': lambda: drawn(revolved(*arc(60, np.pi / 2, np.pi, 100), closed=False), 4, noise=size / 100),
+        'pipe': lambda: drawn(revolved(np.full(100, 60.0), np.linspace(0, 60, 100), closed=False), 25, noise=size / 100),
         'plate': lambda: drawn(box(100, 80, size), 5),
         'shell': lambda: drawn(shell(50, size), 6),
         'cube': lambda: drawn(box(80, 80, 80), 7),
@@ -393,7 +394,8 @@ def make(name):
     return makers[kind]()
 
 
-NAMES = (['sphere', 'torus', 'trefoil', 'bell', 'bowl'] + ['plate %g' % t for t in (0.3, 0.9, 2, 3, 5)] +
+NAMES = (['sphere', 'torus', 'trefoil'] + [f'{thing}{noise}' for thing in ('bell', 'bowl', 'pipe') for noise in ('', ' 0.1')] +
+         ['plate %g' % t for t in (0.3, 0.9, 2, 3, 5)] +
          ['shell %g' % t for t in (0.3, 0.9, 2, 3, 5)] + ['cube'] + ['pocket %g' % d for d in (0.5, 1, 2)] +
          ['spheres %g' % g for g in (0, 0.3, 0.8, 2, 3)] +
          [f'{two} {gap}' for two in ('slabs', 'bars') for gap in (2, 3, 4)] +
