@@ -32,12 +32,12 @@ struct LoopShape {
 /// those across the loop included, is least, and among equals the area [Barequet, Sharir 1995;
 /// Liepa 2003]. If much of that leads through air, and others with half as much or less, it is one
 /// of those with the least: a crack along the wall of a tube is closed along the wall, not across
-/// the tube. Loops beyond 100 edges are first divided by short chords, rather not through air; where
-/// that leads through air nevertheless, three others are tried for the first one, since the shortest
-/// may part the two rims of a crack around a tube.
+/// the tube. Loops beyond 100 edges are first divided by short chords, rather not through air; if
+/// what that gives leads through air, three others are tried instead of the first chord, since the
+/// shortest one may part the two rims of a crack around a tube.
 /// Triangles hold indices of points and run along the loop's edges. Empty if the forbidden edges
 /// leave no triangulation, or for fewer than three points.
-/// Cost: O(n^3) up to 100 edges, O(n^2) to divide longer ones; up to four times that where there is air.
+/// Cost: O(n^3) up to 100 edges, O(n^2) to divide longer ones; up to four times that beside air.
 [[nodiscard]] std::vector<Triangle> triangulate_loop(const LoopShape& shape);
 
 }  // namespace rangezip
