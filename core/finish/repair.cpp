@@ -213,6 +213,8 @@ class Repairer {
   void zip_again() {
     for (int pass = 0; pass < kZipPasses && close_loops(false); ++pass)
       close_loops(true);
+    MeshPieces pieces = look_at_pieces();
+    drop_small(pieces);  // a crumb beside a crack, once it is closed
   }
 
  private:

@@ -32,8 +32,8 @@ void close_joints(TriangleMesh& mesh, const PointGrid& cloud, const FinishOption
                   FinishReport& report, const Progress& progress);
 
 /// Zips the loops that a repair has left open, and closes what that parts from them: what was cut
-/// away around a loop, or is left of a fill, may be cracks that lead into a hole. No face goes:
-/// what would cross something stays open. @pre as repair() leaves a mesh
+/// away around a loop, or is left of a fill, may be cracks that lead into a hole. No face goes but
+/// those of small components: what would cross something stays open. @pre as repair() leaves a mesh
 void zip_open_loops(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
                     FinishReport& report);
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
 
 #include "core/mesh/mesh_report.h"
 #include "core/mesh/self_intersection.h"
@@ -67,6 +70,26 @@ TEST_CASE("open loops are zipped along their cracks; what was not sampled stays,
   CHECK(self_intersections(mesh).empty());
   CHECK(report_mesh(mesh).boundary_loops == 1);
   CHECK(report_mesh(mesh).longest_loop < rim + 6.0 * kH);
+}
+
+TEST_CASE("a crumb that was closed beside the surface is dropped, and counted, once all is zipped",
+          "[finish]") {
+  TriangleMesh mesh = testing::sphere(kN);
+  const TriangleMesh whole = mesh;
+  const TriangleMesh crumb = testing::cube(2);
+  REQUIRE(crumb.triangles.size() < FinishOptions{}.min_component);
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (const Vec3& p : crumb.positions)
+    mesh.positions.push_back(0.5 * kH * p + Vec3(0.0, 0.0, 0.9));
+  for (const auto& [a, b, c] : crumb.triangles)
+    mesh.triangles.push_back({first + a, first + b, first + c});
+  FinishOptions options;
+  options.pixel_size = kH;
+  FinishReport report;
+  zip_open_loops(mesh, grid_of(sampled_sphere()), options, report);
+  CHECK(report.dropped_components == 1);
+  CHECK(report.dropped_faces == crumb.triangles.size());
+  CHECK(mesh == whole);
 }
 
 }  // namespace
