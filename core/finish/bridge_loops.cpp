@@ -57,7 +57,7 @@ class Bridger {
   std::size_t join_runs() {
     std::size_t bridges = 0;
     const std::vector<std::vector<LoopNeighbors>> runs =
-        runs_side_by_side(find_neighbors(), loops_);
+        parts_side_by_side(find_neighbors(), loops_);
     for (std::size_t begin = 0, end = 0; begin < runs.size(); begin = end) {
       const LoopNeighbors& first = runs[begin].front();
       while (end < runs.size() && are_same_loops(runs[end].front(), first))
@@ -75,6 +75,7 @@ class Bridger {
 
  private:
   [[nodiscard]] std::vector<LoopNeighbors> find_neighbors() const {
+    if (joined_.size() < 2) return {};
     return loop_neighbors(
         loops_, table_, mesh_.positions, kMaxGap * h_,
         [&](std::uint32_t a, std::uint32_t b) { return component_of(a) != component_of(b); });

@@ -24,7 +24,7 @@ std::size_t bridge_loops(TriangleMesh& mesh, const MeshPieces& pieces, const Poi
                          double pixel_size);
 
 /// The same, of two sheets that one crack parts, which opens into their borders: where loops run
-/// beside each other for a part of their length (runs_side_by_side), a bridge at both ends of it
+/// beside each other for a part of their length (parts_side_by_side), a bridge at both ends of it
 /// makes the crack a loop of its own. Between thin walls that are close to each other it would
 /// close the gap: to be used where it is known that one piece continues the other.
 std::size_t bridge_runs(TriangleMesh& mesh, const MeshPieces& pieces, const PointGrid& cloud,

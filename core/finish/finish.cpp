@@ -350,8 +350,7 @@ FinishResult finish(TriangleMesh mesh, std::span<const Vec3> cloud, const Finish
     improve(mesh, points, options, result.report, progress);
   }
   remove_unused_vertices(mesh);
-  const CornerTable table(mesh.triangles, mesh.positions.size());
-  result.report.open_loops = boundary_loops(table).size();
+  result.report.open_loops = count_loops(mesh);
   result.mesh = std::move(mesh);
   progress.at("finish", 1.0);
   return result;

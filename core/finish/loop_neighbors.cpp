@@ -120,8 +120,8 @@ std::vector<std::span<const LoopNeighbors>> loops_side_by_side(
   return found;
 }
 
-std::vector<std::vector<LoopNeighbors>> runs_side_by_side(std::span<const LoopNeighbors> neighbors,
-                                                          std::span<const BoundaryLoop> loops) {
+std::vector<std::vector<LoopNeighbors>> parts_side_by_side(std::span<const LoopNeighbors> neighbors,
+                                                           std::span<const BoundaryLoop> loops) {
   std::vector<std::vector<LoopNeighbors>> runs;
   for_each_pair(neighbors, [&](std::span<const LoopNeighbors> pairs) {
     const std::size_t n = loops[pairs.front().loop_a].corners.size();

@@ -43,7 +43,7 @@ struct LoopNeighbors {
 /// The runs in which two loops are beside each other for a part of their length: at least sixteen
 /// neighbours whose places in the first loop lie within four of the next one's, in the order of
 /// that loop. None of loops that are so all around.
-[[nodiscard]] std::vector<std::vector<LoopNeighbors>> runs_side_by_side(
+[[nodiscard]] std::vector<std::vector<LoopNeighbors>> parts_side_by_side(
     std::span<const LoopNeighbors> neighbors, std::span<const BoundaryLoop> loops);
 
 }  // namespace rangezip

@@ -1,0 +1,114 @@
+#include "core/finish/bridge_loops.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "core/finish/finish.h"
+#include "core/mesh/mesh_report.h"
+#include "core/mesh/self_intersection.h"
+#include "tests/core/finish/shapes.h"
+#include "tests/support/shapes.h"
+
+namespace rangezip {
+namespace {
+
+/// Two square sheets of n x n pixels side by side along x, their rims `gap` apart and the second
+/// one so much higher; turned over, it looks down.
+TriangleMesh two_sheets(std::uint32_t n, double gap, double height, bool is_turned) {
+  TriangleMesh mesh = shapes::square_sheet(n);
+  const auto count = static_cast<std::uint32_t>(mesh.positions.size());
+  const std::vector<Triangle> faces = mesh.triangles;
+  for (std::uint32_t v = 0; v < count; ++v)
+    mesh.positions.push_back(mesh.positions[v] + Vec3(n + gap, 0.0, height));
+  for (const auto& [a, b, c] : faces) {
+    mesh.triangles.push_back(is_turned ? Triangle{count + a, count + c, count + b}
+                                       : Triangle{count + a, count + b, count + c});
+  }
+  return mesh;
+}
+
+/// Points of the plane z = 0 around two sheets of n x n.
+std::vector<Vec3> plane_points(std::uint32_t n) {
+  const double half = 0.5 * n;
+  std::vector<Vec3> points;
+  for (double x = -half; x <= 2.0 * n + half; x += 0.25) {
+    for (double y = -half; y <= half; y += 0.25)
+      points.emplace_back(x, y, 0.0);
+  }
+  return points;
+}
+
+TEST_CASE(
+    "a crack that opens into the borders of two sheets becomes a loop by a bridge at each end",
+    "[finish]") {
+  constexpr std::uint32_t kSquares = 40;
+  TriangleMesh mesh = two_sheets(kSquares, 2.0, 0.0, false);
+  const PointGrid cloud(plane_points(kSquares), Box{Vec3(-100.0), Vec3(200.0)}, 0.7);
+  CHECK(bridge_runs(mesh, pieces_of(mesh), cloud, 1.0) == 2);
+  const MeshReport report = report_mesh(mesh);
+  CHECK(report.is_manifold());
+  CHECK(report.components == 1);
+  CHECK(report.boundary_loops == 2);
+  CHECK(report.euler == 0);  // a sheet with a hole, not with a handle
+}
+
+TEST_CASE("sheets seen from opposite sides, one over the rim of the other, become one",
+          "[finish]") {
+  constexpr std::uint32_t kSquares = 40;
+  const TriangleMesh mesh = two_sheets(kSquares, -0.5, 0.1, true);
+  FinishOptions options;
+  options.method = GENERATE(FinishMethod::fast, FinishMethod::full);
+  options.pixel_size = 1.0;
+  const FinishResult result = finish(mesh, plane_points(kSquares), options);
+  REQUIRE_NOTHROW(check_mesh(result.mesh));
+  REQUIRE(self_intersections(result.mesh).empty());
+  CHECK(result.report.turned_pieces == 1);
+  const MeshReport report = report_mesh(result.mesh);
+  REQUIRE(report.is_manifold());
+  REQUIRE(report.degenerate_faces == 0);
+  REQUIRE(report.vertices == result.mesh.positions.size());
+  CHECK(report.components == 1);
+  CHECK(report.boundary_loops == 1);
+  CHECK(report.euler == 1);
+}
+
+TEST_CASE("two bodies side by side are not bridged where the cloud shows air between them") {
+  // Two squares, 2.5 pixels apart, with points on both and none between.
+  constexpr double kGap = 2.5;
+  TriangleMesh mesh = two_sheets(12, kGap, 0.0, false);
+  std::vector<Vec3> points = plane_points(12);
+  const Box region{Vec3(-8.0), Vec3(24.0)};
+  TriangleMesh joined = mesh;
+  CHECK(bridge_loops(joined, pieces_of(joined), PointGrid(points, region, 0.7), 1.0) == 1);
+  std::erase_if(points, [&](const Vec3& p) { return p.x > 6.0 && p.x < 6.0 + kGap; });
+  CHECK(bridge_loops(mesh, pieces_of(mesh), PointGrid(points, region, 0.7), 1.0) == 0);
+}
+
+TEST_CASE("two walls that face each other two pixels apart are not bridged", "[finish]") {
+  // Each has a hole, opposite to the other; points are sparse, and half the gap is 1.35 spacings.
+  constexpr double kGap = 2.0, kSpacing = 0.75;
+  const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
+  CAPTURE(seed);
+  std::mt19937_64 engine(seed);
+  TriangleMesh mesh = shapes::square_sheet(24);
+  testing::cut_where(mesh, [](const Vec3& p) { return std::hypot(p.x, p.y) < 6.0; });
+  const auto count = static_cast<std::uint32_t>(mesh.positions.size());
+  const std::vector<Triangle> faces = mesh.triangles;
+  for (std::uint32_t v = 0; v < count; ++v)
+    mesh.positions.push_back(mesh.positions[v] + Vec3(0.0, 0.0, kGap));
+  for (const auto& [a, b, c] : faces)
+    mesh.triangles.push_back({count + a, count + c, count + b});
+  std::vector<Vec3> points;
+  for (double i = 0.0; i < 2.0 * 24.0 * 24.0 / (kSpacing * kSpacing); i += 1.0) {
+    points.push_back({testing::uniform(engine, -12.0, 12.0), testing::uniform(engine, -12.0, 12.0),
+                      engine() % 2 == 0 ? 0.0 : kGap});
+  }
+  CHECK(bridge_loops(mesh, pieces_of(mesh), PointGrid(points, Box{Vec3(-14.0), Vec3(14.0)}, 0.7),
+                     1.0) == 0);
+}
+
+}  // namespace
+}  // namespace rangezip
