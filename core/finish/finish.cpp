@@ -12,6 +12,7 @@
 #include "core/finish/boundary_loops.h"
 #include "core/finish/clean_topology.h"
 #include "core/finish/coarsen.h"
+#include "core/finish/components.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/extend_border.h"
 #include "core/finish/feature_cleanup.h"
@@ -52,7 +53,8 @@ constexpr double kFilledHandle = 9.0;
 /// Between contours a window may span four gaps: two contours on both sides tell the bending.
 constexpr double kWidestPerGap = 5.0;
 constexpr int kRegrowRounds = 3;
-constexpr int kHandleRounds = 6;  ///< of {cut, close}: paths that touch are cut one by one
+constexpr double kFarInTheWay = 2.0;  ///< RegrowOptions::in_the_way, if growing parted something
+constexpr int kHandleRounds = 6;      ///< of {cut, close}: paths that touch are cut one by one
 /// Points a face: more tell hardly more, and take longer.
 constexpr std::size_t kMostPoints = 24;
 /// Times: with so many fewer triangles than the scans give, where they lie matters more than that
@@ -97,19 +99,35 @@ std::size_t count_loops(const TriangleMesh& mesh) {
   return boundary_loops(CornerTable(mesh.triangles, mesh.positions.size())).size();
 }
 
+std::size_t count_components(const TriangleMesh& mesh) {
+  const std::vector<std::uint32_t> component =
+      components_of(CornerTable(mesh.triangles, mesh.positions.size()));
+  return component.empty() ? 0 : 1 + *std::max_element(component.begin(), component.end());
+}
+
+/// What growing works with.
+struct Growth {
+  std::span<const Vec3> cloud;
+  const PointGrid& points;  ///< the same
+  const FinishOptions& options;
+  const Progress& progress;
+};
+
 /// Grows over what no scan has reached, and closes what is left open. Around what cannot be closed
 /// faces go: there it grows again, unless that leaves more open than there was: between noisy walls
 /// it may join one to the other.
-void grow_and_close(TriangleMesh& mesh, std::span<const Vec3> cloud, const PointGrid& points,
-                    const FinishOptions& options, FinishReport& report, const Progress& progress) {
-  if (options.regrow)
-    report.regrown_faces += regrow(mesh, cloud, points, options.pixel_size, progress);
+/// @param in_the_way RegrowOptions::in_the_way
+void grow_and_close(TriangleMesh& mesh, const Growth& growth, double in_the_way,
+                    FinishReport& report) {
+  const auto& [cloud, points, options, progress] = growth;
+  const RegrowOptions grown{.pixel_size = options.pixel_size, .in_the_way = in_the_way};
+  if (options.regrow) report.regrown_faces += regrow(mesh, cloud, points, grown, progress);
   repair(mesh, self_intersections(mesh), {}, points, options, report, progress);
   if (report.regrown_faces == 0) return;
   for (int round = 1; round < kRegrowRounds; ++round) {
     const TriangleMesh clean = mesh;
     const FinishReport before = report;
-    const std::size_t regrown = regrow(mesh, cloud, points, options.pixel_size, progress);
+    const std::size_t regrown = regrow(mesh, cloud, points, grown, progress);
     const FaceChanges changes = find_face_changes(clean, mesh);
     if (changes.made.empty() && changes.gone.empty()) return;
     repair(mesh, self_intersections(mesh, changes.made), {}, points, options, report, progress);
@@ -120,6 +138,23 @@ void grow_and_close(TriangleMesh& mesh, std::span<const Vec3> cloud, const Point
     }
     report.regrown_faces += regrown;
   }
+}
+
+/// The same; where that parts what was one, as when the neck of a cavity is closed inside, once
+/// more from farther around.
+void grow_in_one(TriangleMesh& mesh, const Growth& growth, FinishReport& report) {
+  const TriangleMesh start = mesh;
+  const FinishReport before = report;
+  grow_and_close(mesh, growth, RegrowOptions{}.in_the_way, report);
+  if (report.regrown_faces == 0) return;
+  const std::size_t parts = count_components(mesh);
+  if (parts <= count_components(start)) return;
+  TriangleMesh again = start;
+  FinishReport report_again = before;
+  grow_and_close(again, growth, kFarInTheWay, report_again);
+  if (count_components(again) >= parts || count_loops(again) > count_loops(mesh)) return;
+  mesh = std::move(again);
+  report = report_again;
 }
 
 /// Cuts handles that seams made where sheets come close, and closes the holes.
@@ -342,7 +377,7 @@ FinishResult finish(TriangleMesh mesh, std::span<const Vec3> cloud, const Finish
   clean_topology(mesh);
   result.report.turned_pieces = orient_pieces(mesh, h);
   if (result.report.turned_pieces > 0) close_joints(mesh, points, options, result.report, progress);
-  grow_and_close(mesh, cloud, points, options, result.report, progress);
+  grow_in_one(mesh, {cloud, points, options, progress}, result.report);
   remove_thin_handles(mesh, points, options, result.report, progress);
   zip_open_loops(mesh, points, options, result.report);
   if (options.method == FinishMethod::full && !mesh.empty()) {

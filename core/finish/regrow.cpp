@@ -32,11 +32,9 @@ constexpr double kMostNoise = 0.3;  ///< in h: more would bend the front
 constexpr double kDoubted = 3.0;
 constexpr double kPlace = 4.0;
 constexpr double kPart = 8.0;
-/// In h: points farther from the mesh than this are not in it; faces as near to one as this hide
-/// the way to it, or are quickly made again.
+/// In h: points farther from the mesh than this are not in it.
 constexpr double kOffMesh = 0.42;
 constexpr double kOffMeshPerNoise = 2.0;
-constexpr double kInTheWay = 0.9;
 constexpr double kApartAgain = 0.3;  ///< in h, of points where the front has stopped
 constexpr int kSmoothRounds = 3;
 constexpr double kHardlyNoise = 0.08;  ///< in h: less is left in
@@ -72,13 +70,15 @@ void drop_shreds(TriangleMesh& mesh) {
 /// Drops faces that lead through the air, and those that hide the way to points.
 /// @param off points near those that the mesh does not show
 void clear_way(TriangleMesh& mesh, std::span<const Vec3> off, const PointGrid& left_out,
-               const PointGrid& cloud, double h) {
-  const PointGrid off_mesh(off, region_of(mesh, h), 0.5 * kInTheWay * h);
+               const PointGrid& cloud, const RegrowOptions& options) {
+  const double h = options.pixel_size;
+  const double in_the_way = options.in_the_way * h;  // faces there are quickly made again
+  const PointGrid off_mesh(off, region_of(mesh, h), 0.5 * in_the_way);
   remove_triangles(mesh.triangles, flags_of(mesh.triangles.size(), [&](std::size_t f) {
                      const std::array<Vec3, 7> places = places_on(mesh, mesh.triangles[f]);
                      return left_out.has_point_within(places[0], kDoubted * h) &&
                             std::any_of(places.begin(), places.end(), [&](const Vec3& place) {
-                              return off_mesh.has_point_within(place, kInTheWay * h) ||
+                              return off_mesh.has_point_within(place, in_the_way) ||
                                      !is_supported(cloud, place, h, kCloseSupport);
                             });
                    }));
@@ -102,8 +102,8 @@ void smooth(std::vector<Vec3>& points, const PointGrid& cloud, double h) {
 }  // namespace
 
 std::size_t regrow(TriangleMesh& mesh, std::span<const Vec3> points, const PointGrid& grid,
-                   double pixel_size, const Progress& progress) {
-  const double h = pixel_size;
+                   const RegrowOptions& options, const Progress& progress) {
+  const double h = options.pixel_size;
   if (mesh.empty()) return 0;
   const double noise = noise_of(points, grid, h);
   if (noise > kMostNoise * h) return 0;
@@ -119,7 +119,7 @@ std::size_t regrow(TriangleMesh& mesh, std::span<const Vec3> points, const Point
   std::vector<Vec3> near = points_near(points, places, kPlace * h);
   if (is_noisy) smooth(near, grid, h);
   const double off_mesh = std::max(kOffMesh * h, kOffMeshPerNoise * noise);
-  clear_way(mesh, points_off(near, mesh, off_mesh), places, grid, h);
+  clear_way(mesh, points_off(near, mesh, off_mesh), places, grid, options);
   FacePart part = part_near(mesh, places, kPart * h);
   if (part.mesh.empty()) return 0;  // they are of another body, inside of this one
   std::vector<Vec3> missing = points_off(near, part.mesh, off_mesh);

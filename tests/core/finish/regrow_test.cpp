@@ -71,7 +71,7 @@ TEST_CASE("regrow covers what scans left out of two sheets two pixels apart, and
   append(mesh, frame(gap, 0.35 * kSide, true));
   REQUIRE(left_out_points(points, mesh, kH).size() > points.size() / 4);
 
-  REQUIRE(regrow(mesh, points, grid_of(points), kH) > 0);
+  REQUIRE(regrow(mesh, points, grid_of(points), {.pixel_size = kH}) > 0);
 
   require_clean(mesh);
   CHECK(left_out_points(points, mesh, kH).empty());
@@ -98,7 +98,7 @@ TEST_CASE("regrow over noise of a fifth of a pixel makes faces that are flatter 
   constexpr double kHole = 0.35 * kSide;
   TriangleMesh mesh = frame(0.0, kHole, false);
   const std::size_t before = mesh.positions.size();
-  REQUIRE(regrow(mesh, points, grid_of(points), kH) > 100);
+  REQUIRE(regrow(mesh, points, grid_of(points), {.pixel_size = kH}) > 100);
   require_clean(mesh);
   double squares = 0.0;
   for (std::size_t v = before; v < mesh.positions.size(); ++v)
@@ -143,7 +143,7 @@ TEST_CASE("regrow takes a membrane out of the middle of a gap, with what joins i
   REQUIRE(report_mesh(mesh).is_manifold());
   REQUIRE(report_mesh(mesh).components == 2);
 
-  REQUIRE(regrow(mesh, points, grid_of(points), kH) > 0);
+  REQUIRE(regrow(mesh, points, grid_of(points), {.pixel_size = kH}) > 0);
   remove_unused_vertices(mesh);
 
   require_clean(mesh);
@@ -163,9 +163,41 @@ TEST_CASE("regrow leaves a hole that holds no points, and what lies far from poi
   std::erase_if(points, [](const Vec3& p) { return std::max(std::abs(p.x), std::abs(p.y)) < 6.0; });
   TriangleMesh mesh = frame(0.0, 6.0, false);
   const TriangleMesh before = mesh;
-  REQUIRE(regrow(mesh, points, grid_of(points), kH) == 0);
+  REQUIRE(regrow(mesh, points, grid_of(points), {.pixel_size = kH}) == 0);
   CHECK(mesh.triangles == before.triangles);
   CHECK(mesh.positions == before.positions);
+}
+
+TEST_CASE("regrow makes faces again that are in the way of points, as far around as it is asked to",
+          "[finish]") {
+  const double in_the_way = GENERATE(0.9, 2.0);
+  const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
+  CAPTURE(in_the_way, seed);
+  std::mt19937_64 engine(seed);
+  std::vector<Vec3> points;
+  add_sheet_points(points, 0.0, engine);
+  TriangleMesh mesh = frame(0.0, 0.35 * kSide, false);
+  const TriangleMesh before = mesh;
+  double rim = kSide;  // the least distance of a vertex from the middle
+  for (const Vec3& p : mesh.positions)
+    rim = std::min(rim, std::max(std::abs(p.x), std::abs(p.y)));
+
+  REQUIRE(regrow(mesh, points, grid_of(points), {.pixel_size = kH, .in_the_way = in_the_way}) > 0);
+
+  require_clean(mesh);
+  constexpr double kOffMesh = 0.42, kSpacing = 0.8;  // what the mesh shows; points next to a place
+  for (const Triangle& t : before.triangles) {
+    double nearest = kSide;
+    for (const std::uint32_t v : t) {
+      const Vec3& p = before.positions[v];
+      nearest = std::min(nearest, std::max(std::abs(p.x), std::abs(p.y)) - rim);
+    }
+    const bool stays =
+        std::find(mesh.triangles.begin(), mesh.triangles.end(), t) != mesh.triangles.end();
+    CAPTURE(nearest);
+    if (nearest > in_the_way) CHECK(stays);
+    if (nearest + kOffMesh + kSpacing < in_the_way) CHECK_FALSE(stays);
+  }
 }
 
 TEST_CASE(
@@ -191,7 +223,7 @@ TEST_CASE(
     p.z = std::max(std::abs(p.x), std::abs(p.y)) < kHalf ? kH : 0.0;
   REQUIRE(left_out_points(points, mesh, 0.7 * kH).size() > 40);
   const TriangleMesh before = mesh;
-  REQUIRE(regrow(mesh, points, grid_of(points), kH) == 0);
+  REQUIRE(regrow(mesh, points, grid_of(points), {.pixel_size = kH}) == 0);
   CHECK(mesh.triangles == before.triangles);
 }
 
@@ -204,7 +236,7 @@ TEST_CASE("regrow leaves points alone that lie far from any face", "[finish]") {
   TriangleMesh mesh = frame(0.0, 2.0, false);
   append(mesh, frame(0.8 * kSide, 2.0, true));
   const TriangleMesh before = mesh;
-  REQUIRE(regrow(mesh, points, grid_of(points), kH) == 0);
+  REQUIRE(regrow(mesh, points, grid_of(points), {.pixel_size = kH}) == 0);
   CHECK(mesh.triangles == before.triangles);
 }
 
