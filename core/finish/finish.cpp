@@ -141,15 +141,15 @@ void grow_and_close(TriangleMesh& mesh, const Growth& growth, double in_the_way,
 }
 
 /// The same; where that parts what was one, as when the neck of a cavity is closed inside, once
-/// more from farther around.
+/// more from farther around, if that leaves fewer pieces and no more loops.
 void grow_in_one(TriangleMesh& mesh, const Growth& growth, FinishReport& report) {
-  const TriangleMesh start = mesh;
+  TriangleMesh start = mesh;
   const FinishReport before = report;
   grow_and_close(mesh, growth, RegrowOptions{}.in_the_way, report);
   if (report.regrown_faces == 0) return;
   const std::size_t parts = count_components(mesh);
   if (parts <= count_components(start)) return;
-  TriangleMesh again = start;
+  TriangleMesh again = std::move(start);
   FinishReport report_again = before;
   grow_and_close(again, growth, kFarInTheWay, report_again);
   if (count_components(again) >= parts || count_loops(again) > count_loops(mesh)) return;
