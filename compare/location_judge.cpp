@@ -7,6 +7,7 @@
 
 #include "compare/mesh_distance.h"
 #include "core/base/error.h"
+#include "core/mesh/edge_map.h"
 
 namespace rangezip::compare {
 
@@ -73,14 +74,66 @@ struct Passing {
   double gap = 0.0;       ///< between the place there and the face
 };
 
-Passing pass(const TriangleMesh& mesh, PrimitiveId face, const Vec3& point, const Vec3& direction) {
+/// Where the line through a point meets the plane of a face.
+Vec3 place_on_line(const TriangleMesh& mesh, PrimitiveId face, const Vec3& point,
+                   const Vec3& direction) {
   const auto& [a, b, c] = mesh.triangles[face];
   const Vec3 normal = area_vector(mesh.positions[a], mesh.positions[b], mesh.positions[c]);
   const double share = glm::dot(normal, mesh.positions[a] - point) / glm::dot(normal, direction);
-  const Vec3 place = point + share * direction;
+  return point + share * direction;
+}
+
+Passing pass(const TriangleMesh& mesh, PrimitiveId face, const Vec3& point, const Vec3& direction) {
+  const Vec3 place = place_on_line(mesh, face, point, direction);
   return {.distance = glm::length(place - point),
           .gap = glm::length(place - closest_point(mesh, face, place))};
 }
+
+std::vector<Vec3> lines_of_sight(const View& view, std::span<const Vec3> points) {
+  std::vector<Vec3> directions;
+  for (const Vec3& point : points)
+    directions.push_back(view.toward_viewer(point));
+  return directions;
+}
+
+/// The ends of a surface: edges that no other face has, and their vertices.
+class SurfaceEnds {
+ public:
+  explicit SurfaceEnds(const TriangleMesh& mesh) : mesh_(mesh), edges_(3 * mesh.triangles.size()) {
+    for (const Triangle& t : mesh.triangles) {
+      for (std::size_t k = 0; k < 3; ++k)
+        edges_.insert(t[k], t[(k + 1) % 3], 0);
+    }
+    is_end_.assign(mesh.positions.size(), 0);
+    for (const Triangle& t : mesh.triangles) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (is_end(t, k)) is_end_[t[k]] = is_end_[t[(k + 1) % 3]] = 1;
+      }
+    }
+  }
+
+  /// Whether a place on the face lies within `tolerance` of an end.
+  [[nodiscard]] bool are_near(PrimitiveId face, const Vec3& place, double tolerance) const {
+    const Triangle& t = mesh_.triangles[face];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3& a = mesh_.positions[t[k]];
+      const Vec3& b = mesh_.positions[t[(k + 1) % 3]];
+      if (is_end_[t[k]] != 0 && glm::length(place - a) <= tolerance) return true;
+      const Vec3 on_edge = closest_point_on_triangle(place, a, b, b);
+      if (is_end(t, k) && glm::length(place - on_edge) <= tolerance) return true;
+    }
+    return false;
+  }
+
+ private:
+  [[nodiscard]] bool is_end(const Triangle& t, std::size_t k) const {
+    return edges_.find(t[(k + 1) % 3], t[k]) == EdgeMap::kNone;
+  }
+
+  const TriangleMesh& mesh_;
+  EdgeMap edges_;
+  std::vector<std::uint8_t> is_end_;  ///< per vertex
+};
 
 }  // namespace
 
@@ -107,9 +160,7 @@ LocationVerdict judge_location_in_sight(const TriangleMesh& mesh, const View& vi
                                         std::span<const Vec3> points,
                                         std::span<const PrimitiveId> faces, double slack) {
   check_faces(mesh, points, faces);
-  std::vector<Vec3> directions;
-  for (const Vec3& point : points)
-    directions.push_back(view.toward_viewer(point));
+  const std::vector<Vec3> directions = lines_of_sight(view, points);
   const auto nearest = nearest_faces_along(points, directions, mesh);
   Losses losses(mesh, points, slack);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -125,6 +176,30 @@ LocationVerdict judge_location_in_sight(const TriangleMesh& mesh, const View& vi
                 .loss = std::max(0.0, passing.distance - best) + passing.gap});
   }
   return losses.verdict();
+}
+
+std::size_t count_missed(const TriangleMesh& mesh, const View& view, std::span<const Vec3> points,
+                         std::span<const PrimitiveId> faces, double distance) {
+  check_faces(mesh, points, faces);
+  const double tolerance = distance / 30.0;  // a drawn face ends where its snapped corners say
+  std::vector<Vec3> unlocated;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (faces[i] == kNoPrimitive) unlocated.push_back(points[i]);
+  }
+  const std::vector<Vec3> directions = lines_of_sight(view, unlocated);
+  const auto nearest = nearest_faces_along(unlocated, directions, mesh);
+  const SurfaceEnds ends(mesh);
+  std::size_t missed = 0;
+  for (std::size_t i = 0; i < unlocated.size(); ++i) {
+    if (!nearest[i] || nearest[i]->distance > distance) continue;
+    const PrimitiveId face = nearest[i]->face;
+    const auto& [a, b, c] = mesh.triangles[face];
+    const Vec3 normal = area_vector(mesh.positions[a], mesh.positions[b], mesh.positions[c]);
+    const bool looks_at_viewer = glm::dot(normal, directions[i]) > 0.0;
+    const Vec3 place = place_on_line(mesh, face, unlocated[i], directions[i]);
+    if (looks_at_viewer && !ends.are_near(face, place, tolerance)) ++missed;
+  }
+  return missed;
 }
 
 }  // namespace rangezip::compare

@@ -24,21 +24,22 @@ struct WrongFace {
 struct LocationVerdict {
   std::size_t points = 0;        ///< given
   std::size_t unlocated = 0;     ///< with the face kNoPrimitive
+  std::size_t missed = 0;        ///< of those: a face was there (count_missed(), if it was asked)
   std::size_t agreeing = 0;      ///< whose face is as near as the nearest one
   std::size_t close = 0;         ///< of those that do not agree: at most the slack farther
   double mean_loss = 0.0;        ///< how much farther the given face is, over located points
   double max_loss = 0.0;         ///< both in model units
   std::vector<WrongFace> wrong;  ///< those that do not agree, by point
 
-  /// Share of the located points that agree; 1 if there are none.
+  /// Share of the located and missed points that agree; 1 if there are none.
   [[nodiscard]] double agreement() const noexcept { return share(agreeing); }
   /// Share of them whose face is right or nearly so; 1 if there are none.
   [[nodiscard]] double acceptance() const noexcept { return share(agreeing + close); }
 
  private:
   [[nodiscard]] double share(std::size_t count) const noexcept {
-    const std::size_t located = points - unlocated;
-    return located == 0 ? 1.0 : static_cast<double>(count) / static_cast<double>(located);
+    const std::size_t judged = points - unlocated + missed;
+    return judged == 0 ? 1.0 : static_cast<double>(count) / static_cast<double>(judged);
   }
 };
 
@@ -61,5 +62,13 @@ struct LocationVerdict {
                                                       std::span<const Vec3> points,
                                                       std::span<const PrimitiveId> faces,
                                                       double slack = 0.0);
+
+/// How many of the points whose face is kNoPrimitive have one after all: of the faces that their
+/// line of sight meets the nearest looks at the viewer, is at most `distance` (model units) away,
+/// and is not met at its end: within a thirtieth of `distance` of an edge that no other face has.
+/// @throws as judge_location()
+[[nodiscard]] std::size_t count_missed(const TriangleMesh& mesh, const View& view,
+                                       std::span<const Vec3> points,
+                                       std::span<const PrimitiveId> faces, double distance);
 
 }  // namespace rangezip::compare

@@ -13,11 +13,18 @@ namespace rangezip::compare {
 
 namespace {
 
-LocationVerdict judge_samples(const TriangleMesh& before, const Scan& scan, double slack) {
+/// A sample that has no face although one is so near in its line of sight was not located; a third
+/// of the band of correspondence, pixel sides.
+constexpr double kMissedDistance = 0.5;
+
+void judge_samples(const TriangleMesh& before, const Scan& scan, StitchVerdict& verdict) {
   std::vector<PrimitiveId> faces;
   for (const Pixel p : scan.patch.pixels)
     faces.push_back(scan.correspondence.face[p]);
-  return judge_location(before, scan.patch.mesh.positions, faces, slack);
+  const std::vector<Vec3>& points = scan.patch.mesh.positions;
+  verdict.samples = judge_location(before, points, faces, verdict.slack);
+  verdict.samples.missed =
+      count_missed(before, scan.image.view(), points, faces, kMissedDistance * verdict.pixel_size);
 }
 
 void judge_insertions(const TriangleMesh& before, const Scan& scan, const StitchRecord& record,
@@ -124,7 +131,7 @@ StitchVerdict judge_stitch(const TriangleMesh& before, const Scan& scan, const S
   if (before.empty() || scan.patch.mesh.empty()) return verdict;
   verdict.pixel_size = pixel_sides_of(scan.patch, scan.image).smallest;
   verdict.slack = options.slack * verdict.pixel_size;
-  verdict.samples = judge_samples(before, scan, verdict.slack);
+  judge_samples(before, scan, verdict);
   judge_insertions(before, scan, record, verdict);
   verdict.segments = judge_segments(before, scan, record, verdict.pixel_size, options);
   return verdict;

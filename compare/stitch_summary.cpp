@@ -12,6 +12,7 @@ LocationSummary summarize_locations(std::span<const StitchVerdict> stitches,
   for (const StitchVerdict& stitch : stitches) {
     const LocationVerdict& verdict = stitch.*which;
     summary.unlocated += verdict.unlocated;
+    summary.missed += verdict.missed;
     summary.located += verdict.points - verdict.unlocated;
     summary.agreeing += verdict.agreeing;
     summary.close += verdict.close;

@@ -16,16 +16,17 @@ struct StitchLimits {
 
 /// Locations of several stitches.
 struct LocationSummary {
-  std::size_t unlocated = 0;  ///< lie on no face of the old surface: nothing to judge
+  std::size_t unlocated = 0;  ///< lie on no face of the old surface
+  std::size_t missed = 0;     ///< of those: a face was there
   std::size_t located = 0;
   std::size_t agreeing = 0;
   std::size_t close = 0;
   DistanceSummary losses;  ///< of those that do not agree, pixel sides
 
-  /// Share of the located ones that agree or are close; 1 if there are none.
+  /// Share of the located and missed ones that agree or are close; 1 if there are none.
   [[nodiscard]] double acceptance() const noexcept {
-    return located == 0 ? 1.0
-                        : static_cast<double>(agreeing + close) / static_cast<double>(located);
+    const std::size_t judged = located + missed;
+    return judged == 0 ? 1.0 : static_cast<double>(agreeing + close) / static_cast<double>(judged);
   }
 };
 

@@ -76,9 +76,9 @@ std::string limit_text(std::size_t judged, bool is_kept, std::string_view kind, 
 std::string locations_text(const LocationSummary& summary) {
   return fmt::format(
       "{} of {} right, {} more close: {}; lost by the others: p95 {:.3g}, max {:.3g} pixel sides; "
-      "{} on no face",
+      "{} on no face, {} of them wrongly",
       summary.agreeing, summary.located, summary.close, share_text(summary), summary.losses.p95,
-      summary.losses.max, summary.unlocated);
+      summary.losses.max, summary.unlocated, summary.missed);
 }
 
 std::string location_limit(const LocationSummary& summary, const StitchLimits& limits) {
@@ -109,6 +109,7 @@ Json figure_of(std::size_t judged, double figure) {
 
 Json json_of(const LocationSummary& summary) {
   return {{"unlocated", summary.unlocated},
+          {"missed", summary.missed},
           {"located", summary.located},
           {"agreeing", summary.agreeing},
           {"close", summary.close},

@@ -72,8 +72,9 @@ struct StitchResult {
 /// clear_and_fill removes every front-facing old face that overlaps a patch cell within the band
 /// and those with a vertex closer than `clearance`, then fills the strip between the two
 /// boundaries by a constrained Delaunay triangulation in the image plane.
-/// zipper inserts the patch's boundary vertices into their faces, lets its boundary edges cut or
-/// flip the edges they cross, removes what is inside, and collapses short edges in the seam
+/// zipper inserts the patch's boundary vertices into their faces, flips the edges that its boundary
+/// edges cross until these are edges of the sheet, removes what is inside, fills the strip where
+/// the boundary leaves the sheet, and collapses short edges in the seam
 /// [Kobbelt, Botsch 2000, 4.4; Turk, Levoy 1994].
 ///
 /// Pieces are dropped only where this stitch changed them. An empty patch changes nothing.

@@ -68,6 +68,31 @@ TEST_CASE("points without a face are counted apart and cost nothing") {
   CHECK(verdict.mean_loss == 0.0);
 }
 
+TEST_CASE("a point without a face is missed where one that is seen lies in its line of sight") {
+  const TriangleMesh mesh = test::strip(4);
+  TriangleMesh turned = mesh;
+  for (Triangle& face : turned.triangles)
+    std::swap(face[1], face[2]);
+  const View view = images::parallel_view({64, 64});
+  // Half a unit above two squares, far beside the strip, and one that was located.
+  const std::vector<Vec3> points{
+      above_square(0), above_square(1), {9.0, 9.0, 0.5}, above_square(2)};
+  const std::vector<PrimitiveId> faces{kNoPrimitive, kNoPrimitive, kNoPrimitive, 4};
+  CHECK(count_missed(mesh, view, points, faces, 0.6) == 2);
+  CHECK(count_missed(mesh, view, points, faces, 0.4) == 0);
+  CHECK(count_missed(turned, view, points, faces, 0.6) == 0);
+  // The strip ends at y = 0: a line of sight there may pass it.
+  const std::vector<Vec3> at_end{{1.75, 0.01, 0.5}, {1.75, 0.03, 0.5}};
+  CHECK(count_missed(mesh, view, at_end, std::vector(2, kNoPrimitive), 0.6) == 1);
+}
+
+TEST_CASE("missed points spoil the verdict like wrong ones") {
+  LocationVerdict verdict{.points = 10, .unlocated = 4, .agreeing = 6};
+  CHECK(verdict.acceptance() == 1.0);
+  verdict.missed = 2;
+  CHECK(verdict.acceptance() == 0.75);
+}
+
 TEST_CASE("a face that is little farther than the nearest one is close, not right") {
   const TriangleMesh mesh = test::strip(8);
   const std::vector<Vec3> points{above_square(3)};
