@@ -87,10 +87,12 @@ double roundness_of(const LoopGeometry& loop) {
 /// The outline of a sheet: a fill would fold back over the sheet, and every point of that would
 /// look as if it were evidence for the fill.
 bool is_outline(const LoopGeometry& geometry, const std::vector<Vec3>& positions,
-                const CornerTable& table, const BoundaryLoop& loop, double pixel_size) {
-  if (geometry.perimeter <= kMinOutline * pixel_size) return false;
+                const CornerTable& table, const BoundaryLoop& loop,
+                const HoleChoiceOptions& options) {
+  if (geometry.perimeter <= kMinOutline * options.pixel_size) return false;
   if (roundness_of(geometry) < kSlit) {
-    const HoleFill fill = fill_loop(positions, table, loop, FillShape::coarse, 0.0);
+    const HoleFill fill =
+        fill_loop(positions, table, loop, FillShape::coarse, 0.0, {}, options.memo);
     return continuation_of(positions, table, loop.corners, fill.triangles) < 0.0;
   }
   return glm::dot(geometry.across, geometry.beside) < kFoldsBack * glm::length(geometry.across);
@@ -186,7 +188,8 @@ bool is_lost_wall(const std::vector<Vec3>& positions, const CornerTable& table,
                   const BoundaryLoop& loop, const PointGrid& cloud,
                   const HoleChoiceOptions& options) {
   return options.is_sampled && loop.corners.size() <= kMaxWallEdges &&
-         is_other_wall(positions, table, loop, cloud, options.noise, options.pixel_size);
+         is_other_wall(positions, table, loop, cloud, options.noise, options.pixel_size,
+                       options.memo);
 }
 
 }  // namespace
@@ -198,12 +201,12 @@ std::optional<FillChoice> choose_fill(const std::vector<Vec3>& positions, const 
   if (loop.corners.size() > kMaxEdges) return std::nullopt;
   const LoopGeometry geometry = geometry_of(positions, table, loop);
   if (geometry.perimeter <= kSmallPerimeter * h) return FillChoice{.shape = FillShape::smooth};
-  if (is_outline(geometry, positions, table, loop, h)) {
+  if (is_outline(geometry, positions, table, loop, options)) {
     if (!is_lost_wall(positions, table, loop, cloud, options)) return std::nullopt;
     return FillChoice{.shape = FillShape::smooth, .is_wall = true};
   }
   const CloudEvidence evidence = options.is_sampled ? CloudEvidence{&cloud, h} : CloudEvidence{};
-  HoleFill fill = fill_loop(positions, table, loop, FillShape::smooth, h, evidence);
+  HoleFill fill = fill_loop(positions, table, loop, FillShape::smooth, h, evidence, options.memo);
   const FillInside inside = look_inside(geometry, fill, cloud, h);
   const auto smooth = [&] {
     return FillChoice{.shape = FillShape::smooth, .fill = std::move(fill)};

@@ -10,12 +10,13 @@
 namespace rangezip {
 
 struct HoleChoiceOptions {
-  double pixel_size = 0.0;          ///< h, model units
-  double max_hole_perimeter = 0.0;  ///< in h, of holes to close although no points lie there
-  double narrow_width = 3.0;        ///< in h, of cracks
-  bool is_sampled = false;          ///< the cloud has points wherever the surface was seen
-  double noise = 0.0;               ///< of these, standard deviation, model units
-  bool leaves_gaps = false;         ///< of what is closed because of its points, where none are
+  double pixel_size = 0.0;            ///< h, model units
+  double max_hole_perimeter = 0.0;    ///< in h, of holes to close although no points lie there
+  double narrow_width = 3.0;          ///< in h, of cracks
+  bool is_sampled = false;            ///< the cloud has points wherever the surface was seen
+  double noise = 0.0;                 ///< of these, standard deviation, model units
+  bool leaves_gaps = false;           ///< of what is closed because of its points, where none are
+  TriangulationMemo* memo = nullptr;  ///< as for fill_loop()
 };
 
 struct FillChoice {

@@ -8,6 +8,7 @@
 #include "core/finish/boundary_loops.h"
 #include "core/finish/cloud_evidence.h"
 #include "core/finish/corner_table.h"
+#include "core/finish/triangulation_memo.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace rangezip {
@@ -33,19 +34,23 @@ struct HoleFill {
 /// @param edge_length of new edges, model units; 0: as long as those around the hole
 /// @param positions of the table's vertices; more may follow
 /// @param evidence points to air, which a fill avoids
+/// @param memo of triangulations of the same cloud; none: nothing is remembered
 /// @pre shape is not FillShape::zipped
 [[nodiscard]] HoleFill fill_loop(const std::vector<Vec3>& positions, const CornerTable& table,
                                  const BoundaryLoop& loop, FillShape shape, double edge_length,
-                                 const CloudEvidence& evidence = {});
+                                 const CloudEvidence& evidence = {},
+                                 TriangulationMemo* memo = nullptr);
 
 /// Closes a loop only where its sides are close together: of the least sharp triangulation it takes
 /// the triangles with all sides up to max_edge that continue the surface beside them, in pieces
 /// that hang together. Together with the mesh they are manifold, and so is it with any of the
 /// pieces.
 /// @param max_edge model units
+/// @param memo as for fill_loop()
 [[nodiscard]] std::vector<HoleFill> zip_loop(const std::vector<Vec3>& positions,
                                              const CornerTable& table, const BoundaryLoop& loop,
-                                             double max_edge, const CloudEvidence& evidence = {});
+                                             double max_edge, const CloudEvidence& evidence = {},
+                                             TriangulationMemo* memo = nullptr);
 
 /// Mean cosine between a fill's faces and the mesh's across the edges of its loops: 1 where it
 /// continues the surface, -1 where it folds back.

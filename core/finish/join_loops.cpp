@@ -204,12 +204,15 @@ class Joiner {
       shape.points.push_back(mesh_.positions[v]);
     const Edge seam_edge = std::minmax(a.vertices[seam.place_a], b.vertices[seam.place_b]);
     if (table_.are_neighbors(seam_edge.first, seam_edge.second)) return {};
-    shape.is_forbidden = [&](std::uint32_t i, std::uint32_t k) {
-      const std::uint32_t v = polygon[i], w = polygon[k];
-      return v == w || Edge(std::minmax(v, w)) == seam_edge ||
-             glm::length(shape.points[k] - shape.points[i]) > kMaxEdge * h_ ||
-             table_.are_neighbors(v, w);
-    };
+    shape.longest_edge = kMaxEdge * h_;
+    for (std::uint32_t i = 0; i < polygon.size(); ++i) {
+      for (std::uint32_t k = 0; k < polygon.size(); ++k) {
+        const std::uint32_t v = polygon[i], w = polygon[k];
+        if (shape.is_too_long(i, k)) continue;
+        if (v == w || Edge(std::minmax(v, w)) == seam_edge || table_.are_neighbors(v, w))
+          shape.forbidden.emplace_back(i, k);
+      }
+    }
     std::vector<Triangle> triangles = triangulate_loop(shape);
     for (Triangle& t : triangles) {
       for (std::uint32_t& v : t)

@@ -9,29 +9,23 @@
 namespace rangezip {
 namespace {
 
-/// The loop's vertices and which of them the mesh already joins.
-class LoopEdges {
- public:
-  LoopEdges(const CornerTable& table, const std::vector<std::uint32_t>& vertices) {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> place_of;  // vertex, place in the loop
-    for (std::uint32_t i = 0; i < vertices.size(); ++i)
-      place_of.emplace_back(vertices[i], i);
-    std::sort(place_of.begin(), place_of.end());
-    for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-      table.for_each_neighbor(vertices[i], [&](std::uint32_t w) {
-        const auto at = std::lower_bound(place_of.begin(), place_of.end(), std::pair{w, 0U});
-        if (at != place_of.end() && at->first == w) joined_.emplace_back(i, at->second);
-      });
-    }
-    std::sort(joined_.begin(), joined_.end());
+/// Which vertices of a loop the mesh already joins, by their places in the loop.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> joined_places(
+    const CornerTable& table, const std::vector<std::uint32_t>& vertices) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> place_of;  // vertex, place in the loop
+  for (std::uint32_t i = 0; i < vertices.size(); ++i)
+    place_of.emplace_back(vertices[i], i);
+  std::sort(place_of.begin(), place_of.end());
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> joined;
+  for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+    table.for_each_neighbor(vertices[i], [&](std::uint32_t w) {
+      const auto at = std::lower_bound(place_of.begin(), place_of.end(), std::pair{w, 0U});
+      if (at != place_of.end() && at->first == w) joined.emplace_back(i, at->second);
+    });
   }
-  [[nodiscard]] bool are_joined(std::uint32_t i, std::uint32_t k) const {
-    return std::binary_search(joined_.begin(), joined_.end(), std::pair{i, k});
-  }
-
- private:
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> joined_;
-};
+  std::sort(joined.begin(), joined.end());
+  return joined;
+}
 
 /// Longer loops are divided: beyond this the cubic cost shows.
 constexpr std::size_t kMaxDirectEdges = 100;
@@ -104,10 +98,8 @@ class Triangulator {
 
   /// The best triangulation; empty if there is none.
   std::vector<Triangle> run() {
-    for (std::size_t i = 0; i + 1 < size_; ++i) {
-      weights_[slot(i, i + 1)] = Weight{};
-      normals_[slot(i, i + 1)] = piece_.edge_normals[i];
-    }
+    for (std::size_t i = 0; i + 1 < size_; ++i)
+      set(i, i + 1, Weight{}, piece_.edge_normals[i], i);
     for (std::size_t span = 2; span < size_; ++span) {
       for (std::size_t i = 0; i + span < size_; ++i)
         choose_middle(i, i + span);
@@ -123,13 +115,13 @@ class Triangulator {
   void choose_middle(std::size_t i, std::size_t k) {
     const bool closes = i == 0 && k == size_ - 1;  // the side from k to i is an edge of the piece
     if (!closes && shape_.is_forbidden(piece_.points[i], piece_.points[k])) return;
-    const std::size_t here = slot(i, k);
+    const Weight& best = weights_[slot(i, k)];
     for (std::size_t m = i + 1; m < k; ++m) {
       const Weight& left = weights_[slot(i, m)];
-      const Weight& right = weights_[slot(m, k)];
+      const Weight& right = weights_[slot(k, m)];
       Weight weight{left.air + right.air, std::max(left.angle, right.angle),
                     left.area + right.area};
-      if (weight.air == kInfinity || is_worse(weight, weights_[here])) continue;
+      if (weight.air == kInfinity || is_worse(weight, best)) continue;
       const Vec3 area = area_vector(point(i), point(m), point(k));
       const double length = glm::length(area);
       constexpr double kFold = 2.0;  // a triangle without area: as bad as a fold
@@ -137,14 +129,14 @@ class Triangulator {
       const Vec3 normal = length > 0.0 ? area / length : Vec3(0.0);
       if (length > 0.0) {
         weight.angle = std::max(
-            {weight.angle, bend(normal, normals_[slot(i, m)]), bend(normal, normals_[slot(m, k)])});
+            {weight.angle, bend(normal, normals_[slot(i, m)]), bend(normal, normals_[slot(k, m)])});
         if (closes) weight.angle = std::max(weight.angle, bend(normal, piece_.edge_normals[k]));
       } else {
         weight.angle = kFold;
       }
-      if (!(weight < weights_[here])) continue;
+      if (!(weight < best)) continue;
       if (avoids_air_ && leads_through_air(i, m, k)) weight.air += length;
-      if (weight < weights_[here]) set(here, weight, normal, m);
+      if (weight < best) set(i, k, weight, normal, m);
     }
   }
 
@@ -167,10 +159,14 @@ class Triangulator {
     return std::tie(sum.air, sum.angle) > std::tie(best.air, best.angle);
   }
 
-  void set(std::size_t here, const Weight& weight, const Vec3& normal, std::size_t middle) {
-    weights_[here] = weight;
-    normals_[here] = normal;
-    middles_[here] = static_cast<std::uint32_t>(middle);
+  /// In both halves of the tables, so that choose_middle() reads rows only.
+  void set(std::size_t i, std::size_t k, const Weight& weight, const Vec3& normal,
+           std::size_t middle) {
+    for (const std::size_t here : {slot(i, k), slot(k, i)}) {
+      weights_[here] = weight;
+      normals_[here] = normal;
+      middles_[here] = static_cast<std::uint32_t>(middle);
+    }
   }
 
   [[nodiscard]] std::vector<Triangle> collect() const {
@@ -334,9 +330,7 @@ LoopShape shape_of(const BoundaryLoop& loop, const CornerTable& table,
   for (const std::uint32_t c : loop.corners) {
     shape.edge_normals.push_back(unit_normal(positions, table.triangle(c / 3)));
   }
-  shape.is_forbidden = [edges = LoopEdges(table, vertices)](std::uint32_t i, std::uint32_t k) {
-    return edges.are_joined(i, k);
-  };
+  shape.forbidden = joined_places(table, vertices);
   shape.is_in_air = air_test(evidence, shape.points);
   shape.long_side = kLongSide * evidence.pixel_size;
   return shape;

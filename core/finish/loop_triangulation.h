@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
-#include <functional>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "core/base/geometry.h"
@@ -15,10 +17,21 @@ namespace rangezip {
 struct LoopShape {
   std::vector<Vec3> points;        ///< edge i runs from point i to point i + 1, the last one back
   std::vector<Vec3> edge_normals;  ///< unit normal of the face across edge i, or zero: none
-  /// Whether an edge between points i and k is not to be made (there is one already).
-  std::function<bool(std::uint32_t i, std::uint32_t k)> is_forbidden;
+  /// Pairs of points between which no edge is to be made (there is one already), both ways, in
+  /// ascending order.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> forbidden;
+  /// No longer edge is made, model units.
+  double longest_edge = std::numeric_limits<double>::infinity();
   AirTest is_in_air;       ///< empty: nothing is known
   double long_side = 0.0;  ///< shorter sides, model units, do not lead through air
+
+  [[nodiscard]] bool is_too_long(std::uint32_t i, std::uint32_t k) const {
+    return glm::length(points[k] - points[i]) > longest_edge;
+  }
+  [[nodiscard]] bool is_forbidden(std::uint32_t i, std::uint32_t k) const {
+    return is_too_long(i, k) ||
+           std::binary_search(forbidden.begin(), forbidden.end(), std::pair{i, k});
+  }
 };
 
 /// The shape of a mesh's boundary loop: point i is vertices_of(loop, table)[i], and no edge that

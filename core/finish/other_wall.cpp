@@ -73,12 +73,12 @@ Box box_around(const std::vector<Vec3>& places, double margin) {
 
 bool is_other_wall(const std::vector<Vec3>& positions, const CornerTable& table,
                    const BoundaryLoop& loop, const PointGrid& cloud, double noise,
-                   double pixel_size) {
+                   double pixel_size, TriangulationMemo* memo) {
   const double h = pixel_size;
   std::vector<Vec3> around;
   for (const std::uint32_t v : vertices_of(loop, table))
     around.push_back(positions[v]);
-  const HoleFill fill = fill_loop(positions, table, loop, FillShape::smooth, h);
+  const HoleFill fill = fill_loop(positions, table, loop, FillShape::smooth, h, {}, memo);
   if (fill.triangles.empty()) return false;
   const std::vector<Vec3> places = places_inside(positions, fill, around, kFromLoop * h);
   if (places.size() < kFewestPlaces) return true;

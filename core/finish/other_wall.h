@@ -5,6 +5,7 @@
 #include "core/finish/boundary_loops.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/point_grid.h"
+#include "core/finish/triangulation_memo.h"
 
 namespace rangezip {
 
@@ -15,8 +16,9 @@ namespace rangezip {
 /// narrow for such places is no sheet. O(faces) for the faces around the loop.
 /// @param noise of the cloud, standard deviation, model units
 /// @param pixel_size h, model units
+/// @param memo as for fill_loop()
 [[nodiscard]] bool is_other_wall(const std::vector<Vec3>& positions, const CornerTable& table,
                                  const BoundaryLoop& loop, const PointGrid& cloud, double noise,
-                                 double pixel_size);
+                                 double pixel_size, TriangulationMemo* memo = nullptr);
 
 }  // namespace rangezip

@@ -115,12 +115,14 @@ std::vector<std::uint8_t> unfilled_vertices(const TriangleMesh& mesh, const Corn
   return unfilled;
 }
 
-HoleChoiceOptions choice_options(const PointGrid& cloud, const FinishOptions& options) {
+HoleChoiceOptions choice_options(const PointGrid& cloud, const FinishOptions& options,
+                                 TriangulationMemo& memo) {
   const double h = options.pixel_size;
   HoleChoiceOptions choice{.pixel_size = h,
                            .max_hole_perimeter = options.max_hole_perimeter,
                            .narrow_width = options.narrow_width,
-                           .is_sampled = !cloud.empty() && options.gap == 0.0};
+                           .is_sampled = !cloud.empty() && options.gap == 0.0,
+                           .memo = &memo};
   if (choice.is_sampled) choice.noise = noise_of(cloud.points(kNoisePoints), cloud, h);
   return choice;
 }
@@ -128,7 +130,7 @@ HoleChoiceOptions choice_options(const PointGrid& cloud, const FinishOptions& op
 VerifiedFillOptions fill_options(const PointGrid& cloud, const HoleChoiceOptions& choice) {
   const double h = choice.pixel_size;
   return {h, choice.narrow_width * h, kLongestZipped * h,
-          choice.is_sampled ? CloudEvidence{&cloud, h} : CloudEvidence{}};
+          choice.is_sampled ? CloudEvidence{&cloud, h} : CloudEvidence{}, choice.memo};
 }
 
 /// Which loops are to be closed, and how.
@@ -167,7 +169,7 @@ class Repairer {
         settled_(settled),
         cloud_(cloud),
         options_(options),
-        choice_(choice_options(cloud, options)),
+        choice_(choice_options(cloud, options, memo_)),
         fill_options_(fill_options(cloud, choice_)),
         report_(report) {}
 
@@ -344,6 +346,7 @@ class Repairer {
   const SettledLoops& settled_;
   const PointGrid& cloud_;
   const FinishOptions& options_;
+  TriangulationMemo memo_;
   HoleChoiceOptions choice_;
   VerifiedFillOptions fill_options_;
   FinishReport& report_;

@@ -72,10 +72,11 @@ std::vector<HoleFill> fills_for(const TriangleMesh& mesh, const CornerTable& tab
                                 const VerifiedFillOptions& options) {
   if (shape == request.shape && !request.fill.triangles.empty()) return {request.fill};
   if (shape == FillShape::zipped) {
-    return zip_loop(mesh.positions, table, request.loop, options.zip_width, options.evidence);
+    return zip_loop(mesh.positions, table, request.loop, options.zip_width, options.evidence,
+                    options.memo);
   }
-  return {
-      fill_loop(mesh.positions, table, request.loop, shape, options.edge_length, options.evidence)};
+  return {fill_loop(mesh.positions, table, request.loop, shape, options.edge_length,
+                    options.evidence, options.memo)};
 }
 
 class Filler {

@@ -21,6 +21,7 @@ struct VerifiedFillOptions {
   double zip_width = 0.0;    ///< sides this close get zipped, model units; see zip_loop
   double zipped_from = std::numeric_limits<double>::infinity();  ///< perimeter, model units
   CloudEvidence evidence;                                        ///< of air, which fills avoid
+  TriangulationMemo* memo = nullptr;                             ///< as for fill_loop()
 };
 
 struct VerifiedFills {

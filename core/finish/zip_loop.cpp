@@ -67,9 +67,9 @@ void drop_unattached(const LoopShape& shape, std::vector<Triangle>& triangles) {
 
 std::vector<HoleFill> zip_loop(const std::vector<Vec3>& positions, const CornerTable& table,
                                const BoundaryLoop& loop, double max_edge,
-                               const CloudEvidence& evidence) {
+                               const CloudEvidence& evidence, TriangulationMemo* memo) {
   const LoopShape shape = shape_of(loop, table, positions, evidence);
-  std::vector<Triangle> triangles = triangulate_loop(shape);
+  std::vector<Triangle> triangles = triangulate_loop(shape, memo);
   std::erase_if(triangles, [&](const Triangle& t) {
     return !is_short(shape, t, max_edge) || !continues_surface(shape, t);
   });

@@ -32,7 +32,6 @@ LoopShape crack_around_tube(double width, int around = kAround, double radius = 
     add(i, 0.0, Vec3(0.0, 0.0, 1.0));
   for (int i = around - 1; i >= 0; --i)
     add(i, width, Vec3(0.0, 0.0, -1.0));
-  shape.is_forbidden = [](std::uint32_t, std::uint32_t) { return false; };
   shape.long_side = 1.5 * kH;
   return shape;
 }
