@@ -70,6 +70,7 @@ Json json_of(const FinishReport& finish) {
           {"collapsed_edges", finish.collapsed_edges},
           {"flipped_edges", finish.flipped_edges},
           {"flattened_spikes", finish.flattened_spikes},
+          {"unfolded", finish.unfolded},
           {"snapped_vertices", finish.snapped_vertices},
           {"rim_moves", finish.rim_moves},
           {"regrown_faces", finish.regrown_faces},

@@ -147,6 +147,15 @@ CASES = [
     Case('fandisk polygons', 'mesh/fandisk.obj', truth='mesh/fandisk.obj', cloud=False,
          bounds=CLEAN + CLOSED + GOOD_ANGLES + [
              Bound('genus', '==', 0), Bound('accuracy_mean', '<=', 0.0001, True)]),
+    Case('bracket polygons', 'cad/featuretype.STL', truth='cad/featuretype.STL', cloud=False,
+         bounds=CLEAN + CLOSED + [Bound('genus', '==', 9), Bound('accuracy_rms', '<=', 0.0001, True),
+                                  Bound('min_angle_lt30', '<=', 0.005)]),
+    Case('bunny polygons', 'range/bunny/bun_zipper.ply', truth='range/bunny/bun_zipper.ply', cloud=False,
+         bounds=CLEAN + GOOD_ANGLES + RIGHT_SIDE_OUT + [Bound('genus', '==', 0), Bound('boundary_loops', '==', 5),
+                                                        Bound('accuracy_rms', '<=', 0.0001, True)]),
+    # Twenty bodies that stand in each other, with open and non-manifold edges: one outside of all of it.
+    Case('chair polygons', 'mesh/office_chair.obj', truth='mesh/office_chair.obj', cloud=False,
+         bounds=CLEAN + [Bound('accuracy_rms', '<=', 0.0005, True)]),
     # Its holes are holes of the object, and stay; so does its genus. Many touch in a vertex, so that their number says little:
     # what is closed of them lies far from the truth, and tells in the accuracy.
     Case('elephant polygons', 'mesh/elephant-with-holes.off', truth='mesh/elephant-with-holes.off', cloud=False,

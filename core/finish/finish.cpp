@@ -32,6 +32,7 @@
 #include "core/finish/sharpen.h"
 #include "core/finish/small_angles.h"
 #include "core/finish/thin_handles.h"
+#include "core/finish/unfold.h"
 #include "core/finish/untangle.h"
 #include "core/mesh/face_changes.h"
 #include "core/mesh/self_intersection.h"
@@ -346,6 +347,7 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
                                 .sizes = scale.sizes,
                                 .rounds = options.relaxations},
                                report, progress);
+  report.unfolded += unfold(mesh, cloud, {h, fit.noise});
   fit_vertices(mesh, surface, fit, progress);
   separate(mesh, all_faces(mesh), cloud, options, report, progress);
   if (options.snap_features) {
@@ -354,6 +356,7 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
   }
   mend_slivers(mesh, cloud, options, report, progress);
   extend(mesh, cloud, 0.0, options, report, progress);
+  report.unfolded += unfold(mesh, cloud, {h, fit.noise});
   if (is_coarsened) {
     coarsen_to_cloud(mesh, cloud, options, report, progress);
   } else {

@@ -51,6 +51,7 @@ struct FinishReport {
   std::size_t collapsed_edges = 0;
   std::size_t flipped_edges = 0;
   std::size_t flattened_spikes = 0;
+  std::size_t unfolded = 0;  ///< folds that were taken out
   std::size_t snapped_vertices = 0;
   std::size_t rim_moves = 0;      ///< of vertices, out to where the cloud has points
   std::size_t regrown_faces = 0;  ///< over what no scan has reached

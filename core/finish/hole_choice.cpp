@@ -151,11 +151,6 @@ bool is_across_hole(const LoopGeometry& geometry, const std::vector<Vec3>& posit
   return inwards >= kLooksInwards * geometry.perimeter && !is_filled(cloud, geometry.points, disc);
 }
 
-/// @param positions of the table's vertices
-Vec3 corner_of(const HoleFill& fill, const std::vector<Vec3>& positions, std::uint32_t v) {
-  return v < positions.size() ? positions[v] : fill.new_positions[v - positions.size()];
-}
-
 /// Whether at some place of a fill the surface was not sampled, as points around it show. A loop
 /// that strays from the points itself tells nothing.
 /// @param positions of the table's vertices

@@ -28,6 +28,14 @@ struct HoleFill {
   std::vector<Vec3> new_positions;
 };
 
+/// Where a corner of a fill is.
+/// @param positions of the table's vertices when the fill was made
+[[nodiscard]] inline Vec3 corner_of(const HoleFill& fill, const std::vector<Vec3>& positions,
+                                    std::uint32_t vertex) {
+  return vertex < positions.size() ? positions[vertex]
+                                   : fill.new_positions[vertex - positions.size()];
+}
+
 /// Fills one loop: least sharp triangulation (core/finish/loop_triangulation.h), then refined and
 /// shaped, unless ten edges go around it or fewer. Never makes an edge that the mesh already has.
 /// Empty if there is no such triangulation.

@@ -374,7 +374,8 @@ class Run {
       command.options.max_hole_perimeter = options_.close_holes;
       command.options.gap = recipe_.gap;
       command.options.narrow_gaps = has_narrow_gaps_;
-      command.options.regrow = is_plain_cloud();
+      // Much of polygons that no view has reached lies inside, where nothing is to grow.
+      command.options.regrow = is_plain_cloud() || (scene_.point_count() == 0 && !has_narrow_gaps_);
       command.options.follow_density = follows_density();
       command.options.snap_features = recipe_.gap == 0.0;  // between contours a bend looks sharp
       apply(command, part_of(progress_, "finish", kFinishShare, kCheckShare));

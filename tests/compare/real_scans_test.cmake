@@ -54,3 +54,10 @@ mesh(fandisk ${DATA}/mesh/fandisk.obj --truth ${DATA}/mesh/fandisk.obj)
 demand(fandisk 1 1 mesh components)
 demand(fandisk 2 2 mesh euler)
 demand(fandisk 0 0.00005 accuracy rms)
+
+# Polygons of a part with bores deeper than any planned view sees.
+mesh(bracket ${DATA}/cad/featuretype.STL --truth ${DATA}/cad/featuretype.STL)
+demand(bracket 1 1 mesh components)
+demand(bracket 0 0 mesh boundary_loops)
+demand(bracket -16 -16 mesh euler)
+demand(bracket 0 0.00006 accuracy rms)
