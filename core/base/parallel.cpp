@@ -8,21 +8,23 @@
 #include <vector>
 
 #ifdef RANGEZIP_WITH_TBB
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #endif
 
 namespace rangezip {
 
+#ifdef RANGEZIP_WITH_TBB
+
 namespace {
 
+/// Of the cores that the process may use, which std::thread does not ask.
 int machine_threads() {
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return std::max(1, tbb::info::default_concurrency());
 }
 
 }  // namespace
-
-#ifdef RANGEZIP_WITH_TBB
 
 void run_with_threads(int threads, const std::function<void()>& work) {
   // More threads than cores gain nothing, and oneTBB complains about them on the error stream.
@@ -53,8 +55,14 @@ void parallel_for(std::size_t count, std::size_t grain,
 // ThreadSanitizer does not understand oneTBB's synchronisation and reports false races, so its
 // preset builds this plain version.
 namespace {
+
 thread_local int allowed_threads = 0;
+
+int machine_threads() {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
+
+}  // namespace
 
 void run_with_threads(int threads, const std::function<void()>& work) {
   struct Restore {
