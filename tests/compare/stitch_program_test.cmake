@@ -29,10 +29,12 @@ foreach(method auto paper)
   string(JSON good GET "${report}" good)
   string(JSON commands LENGTH "${report}" commands)
   string(JSON unlocated GET "${report}" samples unlocated)
+  string(JSON missed GET "${report}" samples missed)
   string(JSON crossings GET "${report}" new_self_intersections)
   string(JSON missing ERROR_VARIABLE nothing_missing GET "${report}" nothing_to_judge 0)
   if(method STREQUAL "auto" AND NOT missing STREQUAL "insertions" OR method STREQUAL "paper"
-      AND NOT nothing_missing OR NOT crossings EQUAL 0 OR unlocated LESS 1)
+      AND NOT nothing_missing OR NOT crossings EQUAL 0 OR unlocated LESS 1
+      OR NOT missed EQUAL 0)
     message(SEND_ERROR "${method}.report.json, of nothing to judge: ${report}")
   endif()
   if(NOT good OR commands LESS 3 OR samples_located LESS 500 OR samples_acceptance LESS 0.999)
