@@ -80,6 +80,10 @@ void print_coverage(Console& console, const CoverageReport& coverage) {
     console.print(
         fmt::format("no data   {}", places_text(coverage.unsupported, coverage.unsupported_area)));
   }
+  if (!coverage.papered.empty()) {
+    console.print(
+        fmt::format("papered   {}", places_text(coverage.papered, coverage.papered_area)));
+  }
 }
 
 void print_summary(Console& console, const MeshOptions& options, const Scene& scene,

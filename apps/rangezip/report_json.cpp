@@ -57,6 +57,7 @@ Json json_of(const StitchReport& stitch) {
 Json json_of(const FinishReport& finish) {
   return {{"self_intersections_cut", finish.self_intersections_cut},
           {"bridged_loops", finish.bridged_loops},
+          {"papered_faces", finish.papered_faces},
           {"joined_loops", finish.joined_loops},
           {"cut_handles", finish.cut_handles},
           {"turned_pieces", finish.turned_pieces},
@@ -179,6 +180,8 @@ Json json_of(const MeshRunReport& run) {
   json["uncovered"] = uncovered_of(report.coverage);
   json["unsupported"] = {{"area", report.coverage.unsupported_area},
                          {"places", json_of(report.coverage.unsupported)}};
+  json["papered"] = {{"area", report.coverage.papered_area},
+                     {"places", json_of(report.coverage.papered)}};
   json["mesh"] = mesh_of(report);
   json["handles"] = handles_of(report);
   json["dropped"] = dropped_of(report);

@@ -88,9 +88,10 @@ class Case:
     bounds: list = field(default_factory=list)
 
 
-MANIFOLD = [Bound('nonmanifold_edges', '==', 0), Bound('nonmanifold_vertices', '==', 0),
-            Bound('self_intersecting_pairs', '==', 0), Bound('misoriented_edges', '==', 0)]
-CLEAN = [Bound('components', '==', 1)] + MANIFOLD
+SOUND = [Bound('nonmanifold_edges', '==', 0), Bound('nonmanifold_vertices', '==', 0),
+            Bound('self_intersecting_pairs', '==', 0), Bound('misoriented_edges', '==', 0),
+         Bound('papered_area', '==', 0.0)]
+CLEAN = [Bound('components', '==', 1)] + SOUND
 CLOSED = [Bound('boundary_edges', '==', 0)]
 # Of finished models. Not of coarsened meshes, whose triangles are long where the surface bends one way only
 # (--decimate, and --triangles of less than a quarter of what the scans give), nor of what is too thin or close.
@@ -105,7 +106,7 @@ def cost(seconds, megabytes):
 
 
 def made(shape, *bounds):
-    return Case(shape, Made(shape), bounds=sum(bounds, MANIFOLD))
+    return Case(shape, Made(shape), bounds=sum(bounds, SOUND))
 
 
 def body(shape, genus, *bounds):
@@ -336,6 +337,7 @@ class Bench:
         points = read_any(cloud)[0] if cloud else np.zeros((0, 3))
         figures.update(boundary_check.check(vertices, faces, points, report['pixel_size']))
         figures['pixel_size'] = report['pixel_size']
+        figures['papered_area'] = report['papered']['area']
         if truth:
             figures['inverted_share'] = min(figures['flipped_share'], 1 - figures['flipped_share'])
         if isinstance(case.source, Made):

@@ -22,6 +22,7 @@
 #include "core/finish/fit_window.h"
 #include "core/finish/local_sizes.h"
 #include "core/finish/orient_pieces.h"
+#include "core/finish/papered_faces.h"
 #include "core/finish/point_grid.h"
 #include "core/finish/point_sides.h"
 #include "core/finish/regrow.h"
@@ -369,20 +370,24 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
 
 }  // namespace
 
-FinishResult finish(TriangleMesh mesh, std::span<const Vec3> cloud, const FinishOptions& options,
+FinishResult finish(TriangleMesh mesh, const SeenPoints& cloud, const FinishOptions& options,
                     const Progress& progress) {
   check(options);
   FinishResult result;
   if (mesh.empty()) return result;
   progress.at("finish", 0.0);
   const double h = options.pixel_size;
-  PointGrid points(cloud, region_of(mesh, kRegionMargin * h), kPointCell * h);
+  PointGrid points(cloud.points, region_of(mesh, kRegionMargin * h), kPointCell * h);
   clean_topology(mesh);
   result.report.turned_pieces = orient_pieces(mesh, h);
   if (result.report.turned_pieces > 0) close_joints(mesh, points, options, result.report, progress);
-  grow_in_one(mesh, {cloud, points, options, progress}, result.report);
+  result.report.papered_faces += drop_papered_faces(mesh, points, cloud, h, 0.0);
+  grow_in_one(mesh, {cloud.points, points, options, progress}, result.report);
   remove_thin_handles(mesh, points, options, result.report, progress);
   zip_open_loops(mesh, points, options, result.report);
+  if (options.max_hole_perimeter == 0.0) {
+    result.report.papered_faces += drop_papered_faces(mesh, points, cloud, h, kPaperedArea * h * h);
+  }
   if (options.method == FinishMethod::full && !mesh.empty()) {
     if (options.gap == 0.0) tell_sides(points, mesh, h);  // contours are too far apart for that
     improve(mesh, points, options, result.report, progress);

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 
 #include "core/base/progress.h"
+#include "core/finish/seen_points.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace rangezip {
@@ -40,8 +40,9 @@ struct FinishReport {
   std::size_t self_intersections_cut = 0;  ///< faces removed because they crossed others
   std::size_t untangled_pairs = 0;         ///< of faces that crossed after vertices had moved
   std::size_t bridged_loops = 0;
-  std::size_t joined_loops = 0;  ///< pairs inside of holes that lead through the object
-  std::size_t cut_handles = 0;   ///< thinner than what scans resolve
+  std::size_t papered_faces = 0;  ///< across the air, through which points look: they went
+  std::size_t joined_loops = 0;   ///< pairs inside of holes that lead through the object
+  std::size_t cut_handles = 0;    ///< thinner than what scans resolve
   std::size_t filled_holes = 0;
   std::size_t filled_faces = 0;
   std::size_t open_loops = 0;  ///< boundary loops left
@@ -71,10 +72,13 @@ struct FinishResult {
 /// self-intersections, bridges cracks between pieces, closes holes that the cloud does not show to
 /// be real, then improves triangles without leaving the cloud and moves borders that stay to where
 /// it ends. The result is oriented, manifold and free of self-intersections.
-/// @param cloud world positions of the points that were scanned (and area samples of polygons), to
-///     which vertices are fitted and which give evidence; may be empty: no fitting
+/// Faces that the points contradict go, before holes are closed and, with a max_hole_perimeter of
+/// 0, after (papered_faces.h).
+/// @param cloud the points that were scanned (and area samples of polygons), to which vertices are
+///     fitted and which give evidence; may be empty: no fitting. Without votes no face is
+///     contradicted.
 /// @throws InvalidArgument if pixel_size is not positive and finite.
-[[nodiscard]] FinishResult finish(TriangleMesh mesh, std::span<const Vec3> cloud,
+[[nodiscard]] FinishResult finish(TriangleMesh mesh, const SeenPoints& cloud,
                                   const FinishOptions& options, const Progress& progress = {});
 
 }  // namespace rangezip

@@ -254,7 +254,7 @@ void describe(Fields& f, DropUnsupported& command) {
 
 template <class Fields>
 void describe(Fields& f, FinishMesh& command) {
-  auto& [options] = command;
+  auto& [options, vote] = command;
   auto& [method, pixel_size, max_hole_perimeter, narrow_width, rounds, relaxations, triangles,
          flat_tolerance, snap_features, gap, narrow_gaps, regrow, follow_density, min_component] =
       options;
@@ -283,6 +283,8 @@ void describe(Fields& f, FinishMesh& command) {
   f.boolean("follow_density", follow_density,
             "full: smaller triangles where the points are denser than pixel_size asks for");
   f.integer("min_component", min_component, kCount, "triangles; smaller pieces are dropped");
+  f.optional("vote", vote,
+             "drops faces that lie in the air where points look through; null: not run");
 }
 
 template <class Fields>

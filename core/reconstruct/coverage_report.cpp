@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/base/parallel.h"
+#include "core/finish/papered_faces.h"
 #include "core/finish/point_grid.h"
 #include "core/mesh/coverage.h"
 
@@ -68,13 +69,18 @@ Vec3 centroid_of(const TriangleMesh& mesh, const Triangle& t) {
   return (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3.0;
 }
 
-/// For each face whether a point lies within `radius` of its centroid.
-std::vector<std::uint8_t> supported_faces(std::span<const Vec3> points, const TriangleMesh& mesh,
-                                          double radius) {
+/// The points around a mesh, sorted for looking within `radius`.
+PointGrid grid_for_faces(std::span<const Vec3> points, const TriangleMesh& mesh, double radius) {
   Box region = bounds_of(mesh);
   region.lower -= Vec3(radius);
   region.upper += Vec3(radius);
-  const PointGrid cloud(points, region, radius);
+  return {points, region, radius};
+}
+
+/// For each face whether a point lies within `radius` of its centroid.
+std::vector<std::uint8_t> supported_faces(std::span<const Vec3> points, const TriangleMesh& mesh,
+                                          double radius) {
+  const PointGrid cloud = grid_for_faces(points, mesh, radius);
   std::vector<std::uint8_t> is_supported(mesh.triangles.size(), 0);
   constexpr std::size_t kFacesPerBlock = 4096;
   parallel_for(mesh.triangles.size(), kFacesPerBlock, [&](std::size_t begin, std::size_t end) {
@@ -86,24 +92,41 @@ std::vector<std::uint8_t> supported_faces(std::span<const Vec3> points, const Tr
   return is_supported;
 }
 
-void report_unsupported(const TriangleMesh& mesh, const std::vector<std::uint8_t>& is_supported,
-                        double pixel_size, CoverageReport& report) {
+/// Of the faces that are flagged, or of all others.
+std::vector<Place> places_of_faces(const TriangleMesh& mesh, const std::vector<std::uint8_t>& flags,
+                                   bool are_flagged, double reach) {
   std::vector<Vec3> centroids;
   std::vector<double> areas;
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    if (is_supported[f] != 0) continue;
+  for (std::size_t f = 0; f < flags.size(); ++f) {
+    if ((flags[f] != 0) != are_flagged) continue;
     centroids.push_back(centroid_of(mesh, mesh.triangles[f]));
     areas.push_back(area_of_face(mesh, mesh.triangles[f]));
   }
-  report.unsupported = places_of(centroids, areas, kReach * pixel_size);
+  return places_of(centroids, areas, reach);
+}
+
+void report_unsupported(const TriangleMesh& mesh, const std::vector<std::uint8_t>& is_supported,
+                        double pixel_size, CoverageReport& report) {
+  report.unsupported = places_of_faces(mesh, is_supported, false, kReach * pixel_size);
   drop_scattered(report.unsupported, kMinFaces);
   report.unsupported_area = total_area(report.unsupported);
 }
 
+void report_papered(const SeenPoints& seen, const TriangleMesh& mesh, double pixel_size,
+                    CoverageReport& report) {
+  const std::vector<std::uint8_t> is_papered =
+      papered_faces(mesh, grid_for_faces(seen.points, mesh, pixel_size), seen, pixel_size);
+  report.papered = places_of_faces(mesh, is_papered, true, pixel_size);
+  const double least = kPaperedArea * pixel_size * pixel_size;
+  std::erase_if(report.papered, [&](const Place& place) { return place.area < least; });
+  report.papered_area = total_area(report.papered);
+}
+
 }  // namespace
 
-CoverageReport report_coverage(std::span<const Vec3> points, const TriangleMesh& mesh,
+CoverageReport report_coverage(const SeenPoints& seen, const TriangleMesh& mesh,
                                double pixel_size) {
+  const std::span<const Vec3> points = seen.points;
   const std::vector<std::uint8_t> is_covered = covered_points(points, mesh, pixel_size);
   const auto covered =
       static_cast<double>(std::count(is_covered.begin(), is_covered.end(), std::uint8_t{1}));
@@ -115,6 +138,7 @@ CoverageReport report_coverage(std::span<const Vec3> points, const TriangleMesh&
   if (mesh.empty()) return report;
   const double radius = kSupportRadius * std::max(pixel_size, std::sqrt(area_per_point));
   report_unsupported(mesh, supported_faces(points, mesh, radius), pixel_size, report);
+  if (!seen.votes.empty()) report_papered(seen, mesh, pixel_size, report);
   return report;
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <vector>
 
+#include "core/finish/seen_points.h"
 #include "core/mesh/places.h"
 #include "core/mesh/triangle_mesh.h"
 
@@ -19,13 +19,16 @@ struct CoverageReport {
   std::vector<Place> uncovered;    ///< such as pockets that no view can reach; largest first
   double unsupported_area = 0.0;   ///< of the places without points, square model units
   std::vector<Place> unsupported;  ///< such as holes that were closed; largest first
+  double papered_area = 0.0;       ///< of the places across the air, square model units
+  std::vector<Place> papered;      ///< through which points look out (core/finish/papered_faces.h)
 };
 
 /// Compares points with the mesh that was made of them. A face counts as supported if a point
 /// lies within 1.5 pixel sides, or 1.5 mean spacings if that is more, of its centroid. Fewer than
-/// ten points or faces together make no place. O(points + faces).
+/// ten points or faces together make no place, nor papered faces of less than 3 square pixel sides.
+/// O(points + faces).
 /// @throws InvalidArgument if pixel_size is not positive and finite.
-[[nodiscard]] CoverageReport report_coverage(std::span<const Vec3> points, const TriangleMesh& mesh,
+[[nodiscard]] CoverageReport report_coverage(const SeenPoints& seen, const TriangleMesh& mesh,
                                              double pixel_size);
 
 }  // namespace rangezip

@@ -364,6 +364,11 @@ class Run {
     }
   }
 
+  /// What tells faces across the air. Between contours all faces are.
+  [[nodiscard]] std::optional<VoteOptions> vote_on_faces() const {
+    return recipe_.gap == 0.0 ? vote_of(recipe_) : std::nullopt;
+  }
+
   void finish_mesh() {
     if (options_.finish) {
       FinishMesh command;
@@ -378,6 +383,7 @@ class Run {
       command.options.regrow = is_plain_cloud() || (scene_.point_count() == 0 && !has_narrow_gaps_);
       command.options.follow_density = follows_density();
       command.options.snap_features = recipe_.gap == 0.0;  // between contours a bend looks sharp
+      command.vote = vote_on_faces();
       apply(command, part_of(progress_, "finish", kFinishShare, kCheckShare));
     }
     clock_.finish("finish");
@@ -387,10 +393,12 @@ class Run {
     progress_.at("check", kCheckShare);
     const auto mesh = session_.mesh();
     ReconstructReport& report = result_.report;
+    SeenPoints seen{.points = samples_};
+    if (const auto vote = vote_on_faces()) seen.votes = session_.votes(rasterizer_, *vote);
     run_side_by_side([&] { report.self_intersections = self_intersections(*mesh).size(); },
                      [&] {
                        report.mesh = report_mesh(*mesh);
-                       report.coverage = report_coverage(samples_, *mesh, recipe_.pixel_size);
+                       report.coverage = report_coverage(seen, *mesh, recipe_.pixel_size);
                        result_.mesh = *mesh;
                      });
     clock_.finish("check");

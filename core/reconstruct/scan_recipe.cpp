@@ -55,7 +55,7 @@ AddScan automatic_scan(const ScanRecipe& recipe, const Vec3& toward_viewer, std:
     command.scan.plane_fit = PlaneFitOptions{};
     command.scan.fill_holes = FillHolesOptions{};
     command.scan.fill_holes->reach = bridge_reach(recipe);
-    if (!recipe.one_sided) command.vote = VoteOptions{.pixel_size = recipe.vote_pixel_size};
+    command.vote = vote_of(recipe);
   }
   command.stitch.method = StitchMethod::clear_and_fill;
   return command;
@@ -82,6 +82,12 @@ AddScan base_scan(const ScanRecipe& recipe, const Vec3& toward_viewer, std::uint
 }
 
 }  // namespace
+
+std::optional<VoteOptions> vote_of(const ScanRecipe& recipe) {
+  if (!recipe.has_points || recipe.one_sided || recipe.method == ReconstructMethod::paper)
+    return std::nullopt;
+  return VoteOptions{.pixel_size = recipe.vote_pixel_size};
+}
 
 AddScan planned_scan(const ScanRecipe& recipe, const Vec3& toward_viewer, std::uint32_t view) {
   constexpr std::size_t kMinPatchFaces = 40;

@@ -26,6 +26,9 @@ struct ScanRecipe {
                                    ///< visibility vote tells outsides from insides
 };
 
+/// The visibility vote of its scans, if there is one: of points whose inside is not to be seen.
+[[nodiscard]] std::optional<VoteOptions> vote_of(const ScanRecipe& recipe);
+
 /// The command that scans along -`toward_viewer` and stitches what is better or new.
 [[nodiscard]] AddScan planned_scan(const ScanRecipe& recipe, const Vec3& toward_viewer,
                                    std::uint32_t view);

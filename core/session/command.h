@@ -12,9 +12,9 @@
 
 namespace rangezip {
 
-/// The visibility vote that a scan uses; computed once per session for each distinct value.
+/// A visibility vote; computed once per session for each distinct value.
 struct VoteOptions {
-  double pixel_size = 0.0;  ///< model units, of the scans that use the vote; must be positive
+  double pixel_size = 0.0;  ///< model units, of the scans; must be positive
   int directions = 40;
 
   friend bool operator==(const VoteOptions&, const VoteOptions&) = default;
@@ -61,7 +61,8 @@ struct DropUnsupported {
 
 /// The finish; projects onto the evidence_points() of the scene.
 struct FinishMesh {
-  FinishOptions options;  ///< pixel_size 0: the mesh's mean edge length
+  FinishOptions options;            ///< pixel_size 0: the mesh's mean edge length
+  std::optional<VoteOptions> vote;  ///< tells which faces the points contradict; absent: none
 };
 
 /// Takes back the last `count` commands (for hand-written sessions; Session::undo() otherwise).

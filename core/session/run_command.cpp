@@ -90,8 +90,10 @@ class CommandRun {
   void operator()(const FinishMesh& command) {
     FinishOptions options = command.options;
     if (options.pixel_size == 0.0) options.pixel_size = mean_edge_length(result_.mesh);
-    FinishResult finished =
-        finish(std::move(result_.mesh), evidence_points(scene_), options, progress_);
+    const std::vector<Vec3> points = evidence_points(scene_);
+    SeenPoints seen{.points = points};
+    if (command.vote) seen.votes = votes_.votes(rasterizer_, scene_, *command.vote, progress_);
+    FinishResult finished = finish(std::move(result_.mesh), seen, options, progress_);
     result_.mesh = std::move(finished.mesh);
     result_.report.finish = finished.report;
   }

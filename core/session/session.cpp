@@ -102,6 +102,11 @@ std::span<const Command> Session::history() const noexcept {
   return std::span(impl_->commands).first(impl_->current);
 }
 
+const VisibilityVotes& Session::votes(Rasterizer& rasterizer, const VoteOptions& options,
+                                      const Progress& progress) {
+  return impl_->votes.votes(rasterizer, impl_->scene, options, progress);
+}
+
 std::shared_ptr<const Scan> Session::last_scan() const noexcept {
   return impl_->last_scan;
 }

@@ -46,6 +46,11 @@ class Session {
   CommandReport apply(const Command& command, Rasterizer& rasterizer,
                       const Progress& progress = {});
 
+  /// The votes of the scene, computed once for each value of the options. The reference stays valid
+  /// until the next call, or that of apply(), undo() or redo().
+  [[nodiscard]] const VisibilityVotes& votes(Rasterizer& rasterizer, const VoteOptions& options,
+                                             const Progress& progress = {});
+
   /// The scan of the last AddScan applied, for its images; null if the last command was another.
   [[nodiscard]] std::shared_ptr<const Scan> last_scan() const noexcept;
 

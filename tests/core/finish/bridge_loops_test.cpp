@@ -62,7 +62,7 @@ TEST_CASE("sheets seen from opposite sides, one over the rim of the other, becom
   FinishOptions options;
   options.method = GENERATE(FinishMethod::fast, FinishMethod::full);
   options.pixel_size = 1.0;
-  const FinishResult result = finish(mesh, plane_points(kSquares), options);
+  const FinishResult result = finish(mesh, {plane_points(kSquares)}, options);
   REQUIRE_NOTHROW(check_mesh(result.mesh));
   REQUIRE(self_intersections(result.mesh).empty());
   CHECK(result.report.turned_pieces == 1);

@@ -81,7 +81,7 @@ TEST_CASE("of a mesh all of whose faces cross nothing is left") {
   mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
   REQUIRE_FALSE(self_intersections(mesh).empty());
   const FinishResult result =
-      finish(mesh, mesh.positions, {.method = method, .pixel_size = 0.1, .min_component = 0});
+      finish(mesh, {mesh.positions}, {.method = method, .pixel_size = 0.1, .min_component = 0});
   REQUIRE(result.mesh.empty());
 }
 
@@ -92,7 +92,7 @@ TEST_CASE("a torn and crumpled sphere becomes closed and free of self-intersecti
   const TriangleMesh torn = torn_sphere(kN, seed);
   REQUIRE_FALSE(self_intersections(torn).empty());
   const auto method = GENERATE(FinishMethod::fast, FinishMethod::full);
-  const FinishResult result = finish(torn, sphere_points(40000, seed), options_for(kN, method));
+  const FinishResult result = finish(torn, {sphere_points(40000, seed)}, options_for(kN, method));
   require_clean(result.mesh);
   REQUIRE(report_mesh(result.mesh).euler == 2);
   REQUIRE(report_mesh(result.mesh).components == 1);
@@ -112,7 +112,7 @@ TEST_CASE(
   }
   FinishOptions options = options_for(kN, FinishMethod::full);
   options.triangles = 1000;
-  const FinishResult result = finish(ellipsoid, cloud, options);
+  const FinishResult result = finish(ellipsoid, {cloud}, options);
   require_clean(result.mesh);
   REQUIRE(result.mesh.triangles.size() == Approx(1000.0).epsilon(0.02));
   REQUIRE(testing::smallest_angle(result.mesh) > 0.17);
@@ -135,9 +135,9 @@ TEST_CASE("with a tolerance a cube keeps its edges with far fewer triangles") {
     cloud[i][static_cast<int>(i % 3)] = i % 2 == 0 ? 1.0 : -1.0;
   }
   FinishOptions options = options_for(kN, FinishMethod::full);
-  const FinishResult whole = finish(testing::cube(kN), cloud, options);
+  const FinishResult whole = finish(testing::cube(kN), {cloud}, options);
   options.flat_tolerance = 0.01;
-  const FinishResult result = finish(testing::cube(kN), cloud, options);
+  const FinishResult result = finish(testing::cube(kN), {cloud}, options);
   require_clean(result.mesh);
   REQUIRE(5 * result.mesh.triangles.size() < whole.mesh.triangles.size());
   REQUIRE(testing::volume_of(result.mesh) == Approx(8.0).epsilon(1e-4));
@@ -147,8 +147,8 @@ TEST_CASE("a second finish changes nothing that the first one closed") {
   constexpr int kN = 32;
   const std::vector<Vec3> cloud = sphere_points(40000, 1);
   const FinishOptions options = options_for(kN, FinishMethod::fast);
-  const FinishResult once = finish(torn_sphere(kN, 1), cloud, options);
-  const FinishResult twice = finish(once.mesh, cloud, options);
+  const FinishResult once = finish(torn_sphere(kN, 1), {cloud}, options);
+  const FinishResult twice = finish(once.mesh, {cloud}, options);
   REQUIRE(twice.mesh == once.mesh);
 }
 
@@ -190,7 +190,7 @@ TEST_CASE("the outline of a flat sheet is no hole, though the points of the shee
   for (Vec3& p : cloud)
     p = {testing::uniform(engine, -1, 1), testing::uniform(engine, -1, 1), 1.0};
   const auto method = GENERATE(FinishMethod::fast, FinishMethod::full);
-  const FinishResult result = finish(mesh, cloud, options_for(kN, method));
+  const FinishResult result = finish(mesh, {cloud}, options_for(kN, method));
   require_clean(result.mesh);
   REQUIRE(result.report.open_loops == 1);
   double area = 0.0;
@@ -224,8 +224,8 @@ TEST_CASE("a large hole is closed if the cloud has points in it, and stays other
   std::vector<Vec3> cloud_with_hole = cloud;
   std::erase_if(cloud_with_hole, [](const Vec3& p) { return p.z > 0.85; });
   const FinishOptions options = options_for(kN, FinishMethod::fast);
-  REQUIRE(report_mesh(finish(mesh, cloud, options).mesh).euler == 2);
-  REQUIRE(report_mesh(finish(mesh, cloud_with_hole, options).mesh).euler == 1);
+  REQUIRE(report_mesh(finish(mesh, {cloud}, options).mesh).euler == 2);
+  REQUIRE(report_mesh(finish(mesh, {cloud_with_hole}, options).mesh).euler == 1);
 }
 
 TEST_CASE("a hole of a few pixels stays where the points around it leave it out, unless asked to") {
@@ -236,9 +236,9 @@ TEST_CASE("a hole of a few pixels stays where the points around it leave it out,
   std::vector<Vec3> cloud = sphere_points(60000, 4);
   std::erase_if(cloud, is_left_out);
   FinishOptions options = options_for(kN, FinishMethod::full);
-  CHECK(report_mesh(finish(mesh, cloud, options).mesh).euler == 1);
+  CHECK(report_mesh(finish(mesh, {cloud}, options).mesh).euler == 1);
   options.max_hole_perimeter = 30.0;
-  CHECK(report_mesh(finish(mesh, cloud, options).mesh).euler == 2);
+  CHECK(report_mesh(finish(mesh, {cloud}, options).mesh).euler == 2);
 }
 
 TEST_CASE("what no scan has reached is closed, but for a hole of the object in it") {
@@ -250,7 +250,7 @@ TEST_CASE("what no scan has reached is closed, but for a hole of the object in i
   std::vector<Vec3> cloud = sphere_points(60000, 3);
   const Vec3 middle = glm::normalize(Vec3(0.25, 0.0, 0.95));
   std::erase_if(cloud, [&](const Vec3& p) { return glm::length(p - middle) < 4.0 * h; });
-  const MeshReport report = report_mesh(finish(mesh, cloud, options_for(kN, method)).mesh);
+  const MeshReport report = report_mesh(finish(mesh, {cloud}, options_for(kN, method)).mesh);
   CHECK(report.euler == 1);
   CHECK(report.boundary_loops == 1);
   CHECK(report.longest_loop > 20.0 * h);  // around what was left out: 8 pi h
@@ -289,7 +289,7 @@ TEST_CASE("which holes stay does not depend on the order of vertices and faces")
   const FinishOptions options = options_for(kN, FinishMethod::full);
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     CAPTURE(seed);
-    const FinishResult result = finish(shuffled(mesh, seed), cloud, options);
+    const FinishResult result = finish(shuffled(mesh, seed), {cloud}, options);
     require_clean(result.mesh);
     if (holes == 0) holes = result.report.open_loops;
     CHECK(holes > 3);
@@ -305,7 +305,7 @@ TEST_CASE("points so sparse that discs of two pixels hold none show no hole") {
   std::vector<Vec3> cloud = sphere_points(900, 5);  // three pixels apart
   std::erase_if(cloud, is_cut);
   const FinishOptions options = options_for(kN, FinishMethod::fast);
-  CHECK(report_mesh(finish(mesh, cloud, options).mesh).euler == 2);
+  CHECK(report_mesh(finish(mesh, {cloud}, options).mesh).euler == 2);
 }
 
 TEST_CASE("a crack between two pieces is bridged and closed") {
@@ -340,7 +340,7 @@ TEST_CASE("a piece that faces the wrong way is turned, and becomes a part of the
     if (mesh.positions[t[0]].z > 0.5) std::swap(t[1], t[2]);
   }
   const FinishResult result =
-      finish(mesh, sphere_points(40000, 1), options_for(kN, FinishMethod::fast));
+      finish(mesh, {sphere_points(40000, 1)}, options_for(kN, FinishMethod::fast));
   require_clean(result.mesh);
   CHECK(result.report.turned_pieces == 1);
   CHECK(report_mesh(result.mesh).components == 1);
@@ -382,8 +382,8 @@ TEST_CASE("finish gives the same bits for any number of threads") {
   const auto method = GENERATE(FinishMethod::fast, FinishMethod::full);
   const FinishOptions options = options_for(32, method);
   TriangleMesh one, four;
-  run_with_threads(1, [&] { one = finish(torn, cloud, options).mesh; });
-  run_with_threads(4, [&] { four = finish(torn, cloud, options).mesh; });
+  run_with_threads(1, [&] { one = finish(torn, {cloud}, options).mesh; });
+  run_with_threads(4, [&] { four = finish(torn, {cloud}, options).mesh; });
   REQUIRE(one == four);
 }
 

@@ -1,7 +1,9 @@
 #include "core/reconstruct/coverage_report.h"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
+#include <cstdint>
 #include <numbers>
 
 #include "tests/support/shapes.h"
@@ -35,7 +37,7 @@ TriangleMesh sphere_without_cap() {
 
 TEST_CASE("a whole sphere leaves nothing to report", "[reconstruct]") {
   const CoverageReport report =
-      report_coverage(points_of_sphere(), shapes::to_mesh(shapes::sphere(1.0, 96)), kPixel);
+      report_coverage({points_of_sphere()}, shapes::to_mesh(shapes::sphere(1.0, 96)), kPixel);
   CHECK(report.share == 1.0);
   CHECK(report.uncovered_points == 0);
   CHECK(report.uncovered.empty());
@@ -45,7 +47,7 @@ TEST_CASE("a whole sphere leaves nothing to report", "[reconstruct]") {
 TEST_CASE("a part of the cloud without a mesh is one place of its area", "[reconstruct]") {
   std::vector<Vec3> points = points_of_sphere();
   points.emplace_back(5.0, 0.0, 0.0);  // an outlier
-  const CoverageReport report = report_coverage(points, sphere_without_cap(), kPixel);
+  const CoverageReport report = report_coverage({points}, sphere_without_cap(), kPixel);
   CHECK(report.scattered_points == 1);
   REQUIRE(report.uncovered.size() == 1);
   const Place& place = report.uncovered.front();
@@ -63,7 +65,7 @@ TEST_CASE("a part of the mesh without points is one place of its area", "[recons
   std::vector<Vec3> points = points_of_sphere();
   std::erase_if(points, is_in_cap);
   const CoverageReport report =
-      report_coverage(points, shapes::to_mesh(shapes::sphere(1.0, 96)), kPixel);
+      report_coverage({points}, shapes::to_mesh(shapes::sphere(1.0, 96)), kPixel);
   CHECK(report.share == 1.0);
   REQUIRE(report.unsupported.size() == 1);
   CHECK(report.unsupported_area > 0.6 * kCapArea);
@@ -71,10 +73,35 @@ TEST_CASE("a part of the mesh without points is one place of its area", "[recons
   CHECK(report.unsupported.front().center.z > 0.9);
 }
 
+TEST_CASE("a part of the mesh that hides points which look out is one place of its area",
+          "[reconstruct]") {
+  constexpr double kFloor = 0.3;  // of a hollow below the cap
+  std::vector<Vec3> points = points_of_sphere();
+  std::erase_if(points, is_in_cap);
+  std::vector<std::array<std::int8_t, 3>> votes;
+  for (const Vec3& p : points) {
+    const auto along = [&](int axis) { return static_cast<std::int8_t>(127.0 * p[axis]); };
+    votes.push_back({along(0), along(1), along(2)});
+  }
+  shapes::Random random(1);
+  for (int i = 0; i < 4000; ++i) {
+    points.emplace_back(random.between(-0.5, 0.5), random.between(-0.5, 0.5), kFloor);
+    votes.push_back({0, 0, 40});
+  }
+  const TriangleMesh mesh = shapes::to_mesh(shapes::sphere(1.0, 96));
+  CHECK(report_coverage({points}, mesh, kPixel).papered.empty());
+  const CoverageReport report = report_coverage({points, votes}, mesh, kPixel);
+  REQUIRE(report.papered.size() == 1);
+  CHECK(report.papered_area == report.papered.front().area);
+  CHECK(report.papered_area > 0.6 * kCapArea);
+  CHECK(report.papered_area < kCapArea);
+  CHECK(report.papered.front().center.z > 0.9);
+}
+
 TEST_CASE("without a mesh nothing is covered, and without points nothing is missing",
           "[reconstruct]") {
   CHECK(report_coverage({}, sphere_without_cap(), kPixel).share == 1.0);
-  const CoverageReport report = report_coverage(points_of_sphere(), TriangleMesh{}, kPixel);
+  const CoverageReport report = report_coverage({points_of_sphere()}, TriangleMesh{}, kPixel);
   CHECK(report.share == 0.0);
   CHECK(report.uncovered_points == 40'000);
 }

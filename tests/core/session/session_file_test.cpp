@@ -100,6 +100,8 @@ TEST_CASE("a session comes back to the bit, and is written the same again", "[se
     const Sphere& place_read = std::get<ErasePlaces>(read.commands[2]).places.at(0);
     CHECK((place.center == place_read.center));
     CHECK(same_bits(place.radius, place_read.radius));
+    CHECK(std::get<FinishMesh>(session.commands.at(6)).vote ==
+          std::get<FinishMesh>(read.commands.at(6)).vote);
     CHECK(same_bits(std::get<FillMeshHoles>(session.commands[4]).max_perimeter,
                     std::get<FillMeshHoles>(read.commands[4]).max_perimeter));
   }

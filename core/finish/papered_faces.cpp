@@ -1,0 +1,159 @@
+#include "core/finish/papered_faces.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <unordered_map>
+
+#include "core/base/cubes.h"
+#include "core/base/parallel.h"
+#include "core/finish/clean_topology.h"
+#include "core/finish/components.h"
+#include "core/finish/corner_table.h"
+#include "core/finish/places_near.h"
+#include "core/finish/unsupported_faces.h"
+
+namespace rangezip {
+namespace {
+
+/// In h: the first step behind a face. What is met there may be its own surface.
+constexpr double kFirstStep = 1.0;
+constexpr double kStep = 0.5;    ///< in h
+constexpr double kReach = 0.75;  ///< in h: points so near to a step are met
+constexpr double kLooksOut = 0.25;
+constexpr double kFullVote = 127.0;
+constexpr double kLeastVote = 0.05 * kFullVote;
+constexpr std::size_t kGrain = 256;
+
+/// Where points lie behind a face.
+struct Sight {
+  std::size_t face = 0;
+  Vec3 toward{0.0};  ///< unit normal of the face
+  Vec3 place{0.0};
+};
+
+struct VoteSum {
+  Vec3 sum{0.0};
+  std::size_t count = 0;
+};
+
+Vec3 centroid_of(const TriangleMesh& mesh, const Triangle& t) {
+  return (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3.0;
+}
+
+/// The first place straight behind a face that has points around it, but for its own surface.
+std::optional<Vec3> place_behind(const Vec3& center, const Vec3& normal, const PointGrid& cloud,
+                                 const Box& region, double h) {
+  for (int step = 0;; ++step) {
+    const Vec3 place = center - (kFirstStep + step * kStep) * h * normal;
+    if (place != glm::clamp(place, region.lower, region.upper)) return std::nullopt;
+    if (!cloud.has_point_within(place, kReach * h)) continue;
+    return step > 0 ? std::optional(place) : std::nullopt;
+  }
+}
+
+/// Those of the faces that no point supports.
+std::vector<Sight> sights_of(const TriangleMesh& mesh, const PointGrid& cloud, double h) {
+  Box region = bounds_of(mesh);
+  region.lower -= Vec3(h);
+  region.upper += Vec3(h);
+  std::vector<std::optional<Vec3>> places(mesh.triangles.size());
+  parallel_for(places.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      const Vec3 center = centroid_of(mesh, mesh.triangles[f]);
+      const Vec3 normal = unit_normal(mesh.positions, mesh.triangles[f]);
+      if (normal == Vec3(0.0) || is_supported(cloud, center, h, kFaceSupport)) continue;
+      places[f] = place_behind(center, normal, cloud, region, h);
+    }
+  });
+  std::vector<Sight> sights;
+  for (std::size_t f = 0; f < places.size(); ++f) {
+    if (places[f])
+      sights.push_back({f, unit_normal(mesh.positions, mesh.triangles[f]), *places[f]});
+  }
+  return sights;
+}
+
+/// For each place the votes of the points within `radius`.
+std::vector<VoteSum> votes_around(const std::vector<Sight>& sights, const SeenPoints& seen,
+                                  double radius) {
+  std::unordered_map<Cube, std::vector<std::size_t>, CubeHash> sights_in;  // and around a cube
+  for (std::size_t i = 0; i < sights.size(); ++i) {
+    const Cube center = cube_of(sights[i].place, radius);
+    for (int k = 0; k < 27; ++k) {
+      const Cube cube{center[0] + k % 3 - 1, center[1] + k / 3 % 3 - 1, center[2] + k / 9 - 1};
+      sights_in[cube].push_back(i);
+    }
+  }
+  const auto is_near = flags_of(seen.votes.size(), [&](std::size_t p) {
+    return sights_in.contains(cube_of(seen.points[p], radius));
+  });
+  std::vector<VoteSum> sums(sights.size());
+  for (std::size_t p = 0; p < is_near.size(); ++p) {
+    if (is_near[p] == 0) continue;
+    const Vec3& point = seen.points[p];
+    const auto& [x, y, z] = seen.votes[p];
+    for (const std::size_t i : sights_in.at(cube_of(point, radius))) {
+      if (glm::length(sights[i].place - point) > radius) continue;
+      sums[i].sum += Vec3(x, y, z);
+      ++sums[i].count;
+    }
+  }
+  return sums;
+}
+
+double area_of(const TriangleMesh& mesh, const Triangle& t) {
+  return 0.5 *
+         glm::length(area_vector(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]));
+}
+
+/// Clears the flags of faces that hang together with too few others.
+void keep_large(const TriangleMesh& mesh, double least_area,
+                std::vector<std::uint8_t>& is_papered) {
+  std::vector<std::size_t> faces;
+  std::vector<Triangle> triangles;
+  for (std::size_t f = 0; f < is_papered.size(); ++f) {
+    if (is_papered[f] == 0) continue;
+    faces.push_back(f);
+    triangles.push_back(mesh.triangles[f]);
+  }
+  const std::vector<std::uint32_t> piece =
+      components_of(CornerTable(triangles, mesh.positions.size()));
+  std::vector<double> areas(faces.size(), 0.0);  // of pieces
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    areas[piece[i]] += area_of(mesh, triangles[i]);
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    is_papered[faces[i]] = areas[piece[i]] >= least_area ? 1 : 0;
+}
+
+bool look_out(const VoteSum& votes, const Vec3& toward) {
+  const double length = glm::length(votes.sum);
+  return length > kLeastVote * static_cast<double>(votes.count) &&
+         glm::dot(votes.sum, toward) > kLooksOut * length;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> papered_faces(const TriangleMesh& mesh, const PointGrid& cloud,
+                                        const SeenPoints& seen, double pixel_size) {
+  if (seen.votes.empty() || mesh.empty()) return {};
+  const std::vector<Sight> sights = sights_of(mesh, cloud, pixel_size);
+  const std::vector<VoteSum> votes = votes_around(sights, seen, kReach * pixel_size);
+  std::vector<std::uint8_t> is_papered(mesh.triangles.size(), 0);
+  for (std::size_t i = 0; i < sights.size(); ++i)
+    is_papered[sights[i].face] = look_out(votes[i], sights[i].toward) ? 1 : 0;
+  return is_papered;
+}
+
+std::size_t drop_papered_faces(TriangleMesh& mesh, const PointGrid& cloud, const SeenPoints& seen,
+                               double pixel_size, double least_area) {
+  std::vector<std::uint8_t> is_papered = papered_faces(mesh, cloud, seen, pixel_size);
+  if (is_papered.empty()) return 0;
+  keep_large(mesh, least_area, is_papered);
+  const std::size_t before = mesh.triangles.size();
+  remove_triangles(mesh.triangles, is_papered);
+  if (mesh.triangles.size() < before) clean_topology(mesh);
+  return before - mesh.triangles.size();
+}
+
+}  // namespace rangezip

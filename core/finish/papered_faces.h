@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/finish/point_grid.h"
+#include "core/finish/seen_points.h"
+#include "core/mesh/triangle_mesh.h"
+
+namespace rangezip {
+
+/// Finds the faces that the input contradicts, whoever made them: scans that join samples across a
+/// step of depth, strips of stitches, fills of holes (own). Such a face has no point near its
+/// centroid (is_supported(), kFaceSupport), and the first points that lie straight behind it, into
+/// the object, look out through it: their mean vote has a cosine of more than 0.25 with its normal.
+/// Behind a face of the surface, and behind one over a place that was not measured, is the far side
+/// of the object, which looks the other way. No face is told so by points that lie within 1.75 h
+/// behind it, nor by some that have no votes (area samples of polygons) or that hardly any
+/// direction sees (votes under 0.05). O(faces), in parallel; what is in the air takes a walk
+/// through the object.
+/// @param cloud grid of the same points
+/// @param pixel_size h, model units; positive
+/// @return flags of faces; empty where there are no votes
+[[nodiscard]] std::vector<std::uint8_t> papered_faces(const TriangleMesh& mesh,
+                                                      const PointGrid& cloud,
+                                                      const SeenPoints& seen, double pixel_size);
+
+/// In square h: less is left without a point here and there. A hole 2 h across is as large.
+inline constexpr double kPaperedArea = 3.0;
+
+/// Drops such faces where as many hang together (over shared edges) as cover `least_area`. The mesh
+/// stays oriented and manifold.
+/// @param least_area square model units; 0: single ones too
+/// @return how many went
+std::size_t drop_papered_faces(TriangleMesh& mesh, const PointGrid& cloud, const SeenPoints& seen,
+                               double pixel_size, double least_area);
+
+}  // namespace rangezip
