@@ -90,7 +90,7 @@ class Case:
 
 SOUND = [Bound('nonmanifold_edges', '==', 0), Bound('nonmanifold_vertices', '==', 0),
             Bound('self_intersecting_pairs', '==', 0), Bound('misoriented_edges', '==', 0),
-         Bound('papered_area', '==', 0.0)]
+         Bound('papered_share', '<=', 0.0001, True)]
 CLEAN = [Bound('components', '==', 1)] + SOUND
 CLOSED = [Bound('boundary_edges', '==', 0)]
 # Of finished models. Not of coarsened meshes, whose triangles are long where the surface bends one way only
@@ -337,7 +337,7 @@ class Bench:
         points = read_any(cloud)[0] if cloud else np.zeros((0, 3))
         figures.update(boundary_check.check(vertices, faces, points, report['pixel_size']))
         figures['pixel_size'] = report['pixel_size']
-        figures['papered_area'] = report['papered']['area']
+        figures['papered_share'] = report['papered']['area'] / area_of(vertices, faces)
         if truth:
             figures['inverted_share'] = min(figures['flipped_share'], 1 - figures['flipped_share'])
         if isinstance(case.source, Made):
@@ -385,6 +385,11 @@ def load_judge(shared):
 
 def read_any(path):
     return sys.modules['mesh_quality'].read_any(path)
+
+
+def area_of(vertices, faces):
+    a, b, c = (vertices[faces[:, i]] for i in range(3))
+    return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()
 
 
 def false_handles(genus, known):

@@ -381,13 +381,12 @@ FinishResult finish(TriangleMesh mesh, const SeenPoints& cloud, const FinishOpti
   clean_topology(mesh);
   result.report.turned_pieces = orient_pieces(mesh, h);
   if (result.report.turned_pieces > 0) close_joints(mesh, points, options, result.report, progress);
-  result.report.papered_faces += drop_papered_faces(mesh, points, cloud, h, 0.0);
+  result.report.papered_faces += drop_papered_faces(mesh, points, cloud, h);
   grow_in_one(mesh, {cloud.points, points, options, progress}, result.report);
   remove_thin_handles(mesh, points, options, result.report, progress);
   zip_open_loops(mesh, points, options, result.report);
-  if (options.max_hole_perimeter == 0.0) {
-    result.report.papered_faces += drop_papered_faces(mesh, points, cloud, h, kPaperedArea * h * h);
-  }
+  if (options.max_hole_perimeter == 0.0)
+    result.report.papered_faces += drop_papered_faces(mesh, points, cloud, h);
   if (options.method == FinishMethod::full && !mesh.empty()) {
     if (options.gap == 0.0) tell_sides(points, mesh, h);  // contours are too far apart for that
     improve(mesh, points, options, result.report, progress);

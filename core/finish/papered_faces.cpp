@@ -23,6 +23,7 @@ constexpr double kReach = 0.75;  ///< in h: points so near to a step are met
 constexpr double kLooksOut = 0.25;
 constexpr double kFullVote = 127.0;
 constexpr double kLeastVote = 0.05 * kFullVote;
+constexpr double kLeastArea = 3.0;  ///< in square h
 constexpr std::size_t kGrain = 256;
 
 /// Where points lie behind a face.
@@ -142,14 +143,14 @@ std::vector<std::uint8_t> papered_faces(const TriangleMesh& mesh, const PointGri
   std::vector<std::uint8_t> is_papered(mesh.triangles.size(), 0);
   for (std::size_t i = 0; i < sights.size(); ++i)
     is_papered[sights[i].face] = look_out(votes[i], sights[i].toward) ? 1 : 0;
+  keep_large(mesh, kLeastArea * pixel_size * pixel_size, is_papered);
   return is_papered;
 }
 
 std::size_t drop_papered_faces(TriangleMesh& mesh, const PointGrid& cloud, const SeenPoints& seen,
-                               double pixel_size, double least_area) {
-  std::vector<std::uint8_t> is_papered = papered_faces(mesh, cloud, seen, pixel_size);
+                               double pixel_size) {
+  const std::vector<std::uint8_t> is_papered = papered_faces(mesh, cloud, seen, pixel_size);
   if (is_papered.empty()) return 0;
-  keep_large(mesh, least_area, is_papered);
   const std::size_t before = mesh.triangles.size();
   remove_triangles(mesh.triangles, is_papered);
   if (mesh.triangles.size() < before) clean_topology(mesh);

@@ -10,15 +10,17 @@
 
 namespace rangezip {
 
-/// Finds the faces that the input contradicts, whoever made them: scans that join samples across a
-/// step of depth, strips of stitches, fills of holes (own). Such a face has no point near its
-/// centroid (is_supported(), kFaceSupport), and the first points that lie straight behind it, into
-/// the object, look out through it: their mean vote has a cosine of more than 0.25 with its normal.
-/// Behind a face of the surface, and behind one over a place that was not measured, is the far side
-/// of the object, which looks the other way. No face is told so by points that lie within 1.75 h
-/// behind it, nor by some that have no votes (area samples of polygons) or that hardly any
-/// direction sees (votes under 0.05). O(faces), in parallel; what is in the air takes a walk
-/// through the object.
+/// Finds places where faces lie across the air, against what the input says, whoever made them:
+/// scans that join samples across a step of depth, strips of stitches, fills of holes (own). Such a
+/// face has no point near its centroid (is_supported(), kFaceSupport), and the first points that
+/// lie straight behind it, into the object, look out through it: their mean vote has a cosine of
+/// more than 0.25 with its normal. Behind a face of the surface, and behind one over a place that
+/// was not measured, is the far side of the object, which looks the other way. No face is told so
+/// by points that lie within 1.75 h behind it, nor by some that have no votes (area samples of
+/// polygons) or that hardly any direction sees (votes under 0.05). Only faces count that hang
+/// together, over shared edges, and cover 3 h^2 or more, as much as a hole 2 h across: less is left
+/// without points here and there. O(faces), in parallel; what is in the air takes a walk through
+/// the object.
 /// @param cloud grid of the same points
 /// @param pixel_size h, model units; positive
 /// @return flags of faces; empty where there are no votes
@@ -26,14 +28,8 @@ namespace rangezip {
                                                       const PointGrid& cloud,
                                                       const SeenPoints& seen, double pixel_size);
 
-/// In square h: less is left without a point here and there. A hole 2 h across is as large.
-inline constexpr double kPaperedArea = 3.0;
-
-/// Drops such faces where as many hang together (over shared edges) as cover `least_area`. The mesh
-/// stays oriented and manifold.
-/// @param least_area square model units; 0: single ones too
-/// @return how many went
+/// Drops such faces. The mesh stays oriented and manifold. @return how many went
 std::size_t drop_papered_faces(TriangleMesh& mesh, const PointGrid& cloud, const SeenPoints& seen,
-                               double pixel_size, double least_area);
+                               double pixel_size);
 
 }  // namespace rangezip

@@ -117,8 +117,6 @@ void report_papered(const SeenPoints& seen, const TriangleMesh& mesh, double pix
   const std::vector<std::uint8_t> is_papered =
       papered_faces(mesh, grid_for_faces(seen.points, mesh, pixel_size), seen, pixel_size);
   report.papered = places_of_faces(mesh, is_papered, true, pixel_size);
-  const double least = kPaperedArea * pixel_size * pixel_size;
-  std::erase_if(report.papered, [&](const Place& place) { return place.area < least; });
   report.papered_area = total_area(report.papered);
 }
 

@@ -25,8 +25,7 @@ struct CoverageReport {
 
 /// Compares points with the mesh that was made of them. A face counts as supported if a point
 /// lies within 1.5 pixel sides, or 1.5 mean spacings if that is more, of its centroid. Fewer than
-/// ten points or faces together make no place, nor papered faces of less than 3 square pixel sides.
-/// O(points + faces).
+/// ten points or faces together make no place. O(points + faces).
 /// @throws InvalidArgument if pixel_size is not positive and finite.
 [[nodiscard]] CoverageReport report_coverage(const SeenPoints& seen, const TriangleMesh& mesh,
                                              double pixel_size);
