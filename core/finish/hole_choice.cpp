@@ -27,6 +27,9 @@ constexpr double kLeadsInto = 0.25;
 /// second figure: short ones are too ragged to tell.
 constexpr double kFoldsBack = -0.3;
 constexpr double kMinOutline = 30.0;
+/// In h: a shorter loop is none of a component with so many times the area that it encloses.
+constexpr double kSureOutline = 60.0;
+constexpr double kDeepestSheet = 10.0;
 /// Area over squared perimeter, 1 for a circle: of a loop below, a crack or a ribbon, only a fill
 /// tells whether it folds back.
 constexpr double kSlit = 0.15;
@@ -52,6 +55,8 @@ constexpr double kLooksInwards = 0.5;
 /// A border may be a pixel beyond the points; of a loop that strays farther the fill tells nothing.
 constexpr SupportReach kLoopSupport{1.25, 2.0};
 constexpr double kShownLoop = 0.9;  // of the vertices of a loop
+
+constexpr double kFourPi = 12.566370614359172954;
 
 struct LoopGeometry {
   std::vector<Vec3> points;
@@ -80,8 +85,14 @@ LoopGeometry geometry_of(const std::vector<Vec3>& positions, const CornerTable& 
 
 /// Area over squared perimeter, 1 for a circle.
 double roundness_of(const LoopGeometry& loop) {
-  constexpr double kFourPi = 12.566370614359172954;
   return kFourPi * glm::length(loop.across) / (loop.perimeter * loop.perimeter);
+}
+
+/// Short loops are too ragged to tell; one that is not long is a hole of something much larger.
+bool may_be_outline(double perimeter, double sheet_area, double pixel_size) {
+  if (perimeter <= kMinOutline * pixel_size) return false;
+  return perimeter > kSureOutline * pixel_size ||
+         kFourPi * sheet_area <= kDeepestSheet * perimeter * perimeter;
 }
 
 /// The outline of a sheet: a fill would fold back over the sheet, and every point of that would
@@ -89,7 +100,6 @@ double roundness_of(const LoopGeometry& loop) {
 bool is_outline(const LoopGeometry& geometry, const std::vector<Vec3>& positions,
                 const CornerTable& table, const BoundaryLoop& loop,
                 const HoleChoiceOptions& options) {
-  if (geometry.perimeter <= kMinOutline * options.pixel_size) return false;
   if (roundness_of(geometry) < kSlit) {
     const HoleFill fill =
         fill_loop(positions, table, loop, FillShape::coarse, 0.0, {}, options.memo);
@@ -190,13 +200,14 @@ bool is_lost_wall(const std::vector<Vec3>& positions, const CornerTable& table,
 }  // namespace
 
 std::optional<FillChoice> choose_fill(const std::vector<Vec3>& positions, const CornerTable& table,
-                                      const BoundaryLoop& loop, bool is_zipped,
+                                      const BoundaryLoop& loop, double sheet_area, bool is_zipped,
                                       const PointGrid& cloud, const HoleChoiceOptions& options) {
   const double h = options.pixel_size;
   if (loop.corners.size() > kMaxEdges) return std::nullopt;
   const LoopGeometry geometry = geometry_of(positions, table, loop);
   if (geometry.perimeter <= kSmallPerimeter * h) return FillChoice{.shape = FillShape::smooth};
-  if (is_outline(geometry, positions, table, loop, options)) {
+  if (may_be_outline(geometry.perimeter, sheet_area, h) &&
+      is_outline(geometry, positions, table, loop, options)) {
     if (!is_lost_wall(positions, table, loop, cloud, options)) return std::nullopt;
     return FillChoice{.shape = FillShape::smooth, .is_wall = true};
   }

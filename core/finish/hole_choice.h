@@ -30,7 +30,8 @@ struct FillChoice {
 /// an open surface, which stays (no value):
 /// - a small loop (up to 12 h) is closed;
 /// - the outline of a sheet stays: a fill would fold back over the sheet; unless the cloud shows
-///   that it is another wall (core/finish/other_wall.h);
+///   that it is another wall (core/finish/other_wall.h). A loop up to 60 h is no outline of what is
+///   much larger;
 /// - a loop with points of the cloud inside is closed whatever its size, but, if asked for, for
 ///   what was not sampled (core/finish/left_out_faces.h): a hole of the object may lie beside what
 ///   no scan has reached;
@@ -42,12 +43,13 @@ struct FillChoice {
 ///   without points that the surface was not sampled there: a hole, or what no scan saw;
 /// - others are closed, unless they are long (60 h, max_hole_perimeter) and wide.
 /// Loops of more than 6000 edges always stay.
+/// @param sheet_area of the component with the loop, square model units
 /// @param is_zipped whether loops have been zipped before
 /// @param cloud points of the cloud; may be empty: no evidence
 [[nodiscard]] std::optional<FillChoice> choose_fill(const std::vector<Vec3>& positions,
                                                     const CornerTable& table,
-                                                    const BoundaryLoop& loop, bool is_zipped,
-                                                    const PointGrid& cloud,
+                                                    const BoundaryLoop& loop, double sheet_area,
+                                                    bool is_zipped, const PointGrid& cloud,
                                                     const HoleChoiceOptions& options);
 
 /// What a cloud shows inside of a hole, where a fill lies more than 1.5 h away from its loop; of a

@@ -103,11 +103,6 @@ std::vector<VoteSum> votes_around(const std::vector<Sight>& sights, const SeenPo
   return sums;
 }
 
-double area_of(const TriangleMesh& mesh, const Triangle& t) {
-  return 0.5 *
-         glm::length(area_vector(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]));
-}
-
 /// Clears the flags of faces that hang together with too few others.
 void keep_large(const TriangleMesh& mesh, double least_area,
                 std::vector<std::uint8_t>& is_papered) {
@@ -122,7 +117,7 @@ void keep_large(const TriangleMesh& mesh, double least_area,
       components_of(CornerTable(triangles, mesh.positions.size()));
   std::vector<double> areas(faces.size(), 0.0);  // of pieces
   for (std::size_t i = 0; i < faces.size(); ++i)
-    areas[piece[i]] += area_of(mesh, triangles[i]);
+    areas[piece[i]] += area_of_face(mesh.positions, triangles[i]);
   for (std::size_t i = 0; i < faces.size(); ++i)
     is_papered[faces[i]] = areas[piece[i]] >= least_area ? 1 : 0;
 }

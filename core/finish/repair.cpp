@@ -12,6 +12,7 @@
 #include "core/finish/boundary_loops.h"
 #include "core/finish/bridge_loops.h"
 #include "core/finish/clean_topology.h"
+#include "core/finish/components.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/ear_fill.h"
 #include "core/finish/hole_choice.h"
@@ -133,14 +134,25 @@ VerifiedFillOptions fill_options(const PointGrid& cloud, const HoleChoiceOptions
           choice.is_sampled ? CloudEvidence{&cloud, h} : CloudEvidence{}, choice.memo};
 }
 
+std::vector<double> areas_of_components(const TriangleMesh& mesh,
+                                        const std::vector<std::uint32_t>& component) {
+  std::vector<double> areas(component.size(), 0.0);
+  for (std::size_t f = 0; f < component.size(); ++f)
+    areas[component[f]] += area_of_face(mesh.positions, mesh.triangles[f]);
+  return areas;
+}
+
 /// Which loops are to be closed, and how.
 ChosenFills choose_fills(const TriangleMesh& mesh, const CornerTable& table,
                          std::vector<BoundaryLoop> loops, bool is_zipped, const PointGrid& cloud,
                          const HoleChoiceOptions& choice) {
+  const std::vector<std::uint32_t> component = components_of(table);
+  const std::vector<double> areas = areas_of_components(mesh, component);
   std::vector<std::optional<FillChoice>> choices(loops.size());
   parallel_for(loops.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      choices[i] = choose_fill(mesh.positions, table, loops[i], is_zipped, cloud, choice);
+      choices[i] = choose_fill(mesh.positions, table, loops[i],
+                               areas[component[loops[i].corners[0] / 3]], is_zipped, cloud, choice);
   });
   ChosenFills chosen;
   for (std::size_t i = 0; i < loops.size(); ++i) {

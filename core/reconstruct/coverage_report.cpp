@@ -23,15 +23,10 @@ constexpr std::size_t kMinFaces = 10;
 /// this.
 constexpr double kSupportRadius = 1.5;
 
-double area_of_face(const TriangleMesh& mesh, const Triangle& t) {
-  return 0.5 *
-         glm::length(area_vector(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]));
-}
-
 double area_of_mesh(const TriangleMesh& mesh) {
   double area = 0.0;
   for (const Triangle& t : mesh.triangles)
-    area += area_of_face(mesh, t);
+    area += area_of_face(mesh.positions, t);
   return area;
 }
 
@@ -100,7 +95,7 @@ std::vector<Place> places_of_faces(const TriangleMesh& mesh, const std::vector<s
   for (std::size_t f = 0; f < flags.size(); ++f) {
     if ((flags[f] != 0) != are_flagged) continue;
     centroids.push_back(centroid_of(mesh, mesh.triangles[f]));
-    areas.push_back(area_of_face(mesh, mesh.triangles[f]));
+    areas.push_back(area_of_face(mesh.positions, mesh.triangles[f]));
   }
   return places_of(centroids, areas, reach);
 }

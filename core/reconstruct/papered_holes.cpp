@@ -59,10 +59,8 @@ Faces faces_without_points(const TriangleMesh& mesh, const PointGrid& cloud, dou
   Faces bare;
   for (std::size_t f = 0; f < is_bare.size(); ++f) {
     if (is_bare[f] == 0) continue;
-    const auto& [a, b, c] = mesh.triangles[f];
     bare.centers.push_back(places_on(mesh, mesh.triangles[f])[0]);
-    bare.areas.push_back(
-        0.5 * glm::length(area_vector(mesh.positions[a], mesh.positions[b], mesh.positions[c])));
+    bare.areas.push_back(area_of_face(mesh.positions, mesh.triangles[f]));
   }
   return bare;
 }
