@@ -89,9 +89,9 @@ double roundness_of(const LoopGeometry& loop) {
 }
 
 /// Short loops are too ragged to tell; one that is not long is a hole of something much larger.
-bool may_be_outline(double perimeter, double sheet_area, double pixel_size) {
-  if (perimeter <= kMinOutline * pixel_size) return false;
-  return perimeter > kSureOutline * pixel_size ||
+bool may_be_outline(double perimeter, double sheet_area, const HoleChoiceOptions& options) {
+  if (perimeter <= kMinOutline * options.pixel_size) return false;
+  return options.has_narrow_gaps || perimeter > kSureOutline * options.pixel_size ||
          kFourPi * sheet_area <= kDeepestSheet * perimeter * perimeter;
 }
 
@@ -206,7 +206,7 @@ std::optional<FillChoice> choose_fill(const std::vector<Vec3>& positions, const 
   if (loop.corners.size() > kMaxEdges) return std::nullopt;
   const LoopGeometry geometry = geometry_of(positions, table, loop);
   if (geometry.perimeter <= kSmallPerimeter * h) return FillChoice{.shape = FillShape::smooth};
-  if (may_be_outline(geometry.perimeter, sheet_area, h) &&
+  if (may_be_outline(geometry.perimeter, sheet_area, options) &&
       is_outline(geometry, positions, table, loop, options)) {
     if (!is_lost_wall(positions, table, loop, cloud, options)) return std::nullopt;
     return FillChoice{.shape = FillShape::smooth, .is_wall = true};

@@ -14,6 +14,7 @@ struct HoleChoiceOptions {
   double max_hole_perimeter = 0.0;    ///< in h, of holes to close although no points lie there
   double narrow_width = 3.0;          ///< in h, of cracks
   bool is_sampled = false;            ///< the cloud has points wherever the surface was seen
+  bool has_narrow_gaps = false;       ///< a short loop may be the outline of one wall of a gap
   double noise = 0.0;                 ///< of these, standard deviation, model units
   bool leaves_gaps = false;           ///< of what is closed because of its points, where none are
   TriangulationMemo* memo = nullptr;  ///< as for fill_loop()
@@ -31,7 +32,7 @@ struct FillChoice {
 /// - a small loop (up to 12 h) is closed;
 /// - the outline of a sheet stays: a fill would fold back over the sheet; unless the cloud shows
 ///   that it is another wall (core/finish/other_wall.h). A loop up to 60 h is no outline of what is
-///   much larger;
+///   much larger, but beside narrow gaps;
 /// - a loop with points of the cloud inside is closed whatever its size, but, if asked for, for
 ///   what was not sampled (core/finish/left_out_faces.h): a hole of the object may lie beside what
 ///   no scan has reached;

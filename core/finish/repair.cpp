@@ -123,6 +123,7 @@ HoleChoiceOptions choice_options(const PointGrid& cloud, const FinishOptions& op
                            .max_hole_perimeter = options.max_hole_perimeter,
                            .narrow_width = options.narrow_width,
                            .is_sampled = !cloud.empty() && options.gap == 0.0,
+                           .has_narrow_gaps = options.narrow_gaps,
                            .memo = &memo};
   if (choice.is_sampled) choice.noise = noise_of(cloud.points(kNoisePoints), cloud, h);
   return choice;
