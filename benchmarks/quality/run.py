@@ -89,7 +89,7 @@ class Case:
 
 
 SOUND = [Bound('nonmanifold_edges', '==', 0), Bound('nonmanifold_vertices', '==', 0),
-            Bound('self_intersecting_pairs', '==', 0), Bound('misoriented_edges', '==', 0),
+         Bound('self_intersecting_pairs', '==', 0), Bound('misoriented_edges', '==', 0),
          Bound('papered_share', '<=', 0.0001, True)]
 CLEAN = [Bound('components', '==', 1)] + SOUND
 CLOSED = [Bound('boundary_edges', '==', 0)]

@@ -38,10 +38,6 @@ struct VoteSum {
   std::size_t count = 0;
 };
 
-Vec3 centroid_of(const TriangleMesh& mesh, const Triangle& t) {
-  return (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3.0;
-}
-
 /// The first place straight behind a face that has points around it, but for its own surface.
 std::optional<Vec3> place_behind(const Vec3& center, const Vec3& normal, const PointGrid& cloud,
                                  const Box& region, double h) {
@@ -61,7 +57,7 @@ std::vector<Sight> sights_of(const TriangleMesh& mesh, const PointGrid& cloud, d
   std::vector<std::optional<Vec3>> places(mesh.triangles.size());
   parallel_for(places.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
-      const Vec3 center = centroid_of(mesh, mesh.triangles[f]);
+      const Vec3 center = centroid_of(mesh.positions, mesh.triangles[f]);
       const Vec3 normal = unit_normal(mesh.positions, mesh.triangles[f]);
       if (normal == Vec3(0.0) || is_supported(cloud, center, h, kFaceSupport)) continue;
       places[f] = place_behind(center, normal, cloud, region, h);

@@ -12,7 +12,6 @@
 #include "core/finish/boundary_loops.h"
 #include "core/finish/bridge_loops.h"
 #include "core/finish/clean_topology.h"
-#include "core/finish/components.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/ear_fill.h"
 #include "core/finish/hole_choice.h"
@@ -144,16 +143,17 @@ std::vector<double> areas_of_components(const TriangleMesh& mesh,
 }
 
 /// Which loops are to be closed, and how.
-ChosenFills choose_fills(const TriangleMesh& mesh, const CornerTable& table,
+/// @param pieces of the mesh, with or without these loops
+ChosenFills choose_fills(const TriangleMesh& mesh, const MeshPieces& pieces,
                          std::vector<BoundaryLoop> loops, bool is_zipped, const PointGrid& cloud,
                          const HoleChoiceOptions& choice) {
-  const std::vector<std::uint32_t> component = components_of(table);
-  const std::vector<double> areas = areas_of_components(mesh, component);
+  const std::vector<double> areas = areas_of_components(mesh, pieces.component);
   std::vector<std::optional<FillChoice>> choices(loops.size());
   parallel_for(loops.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      choices[i] = choose_fill(mesh.positions, table, loops[i],
-                               areas[component[loops[i].corners[0] / 3]], is_zipped, cloud, choice);
+      choices[i] =
+          choose_fill(mesh.positions, pieces.table, loops[i],
+                      areas[pieces.component[loops[i].corners[0] / 3]], is_zipped, cloud, choice);
   });
   ChosenFills chosen;
   for (std::size_t i = 0; i < loops.size(); ++i) {
@@ -284,7 +284,7 @@ class Repairer {
     std::vector<BoundaryLoop> loops = std::move(pieces.loops);
     const std::vector<BoundaryLoop> hindered = hindered_among(loops, table, is_hindered);
     const ChosenFills chosen =
-        choose_fills(mesh_, table, std::move(loops), round > 0, cloud_, choice_);
+        choose_fills(mesh_, pieces, std::move(loops), round > 0, cloud_, choice_);
     const VerifiedFills fills = make(chosen.requests, table);
     FillOutcome outcome;
     outcome.unfilled = unfilled_vertices(mesh_, table, chosen, fills, round < kGentleRounds);
@@ -334,7 +334,7 @@ class Repairer {
   [[nodiscard]] std::vector<BoundaryLoop> loops_to_close(MeshPieces& pieces) const {
     std::vector<BoundaryLoop> loops;
     ChosenFills chosen =
-        choose_fills(mesh_, pieces.table, std::move(pieces.loops), true, cloud_, choice_);
+        choose_fills(mesh_, pieces, std::move(pieces.loops), true, cloud_, choice_);
     for (FillRequest& request : chosen.requests)
       loops.push_back(std::move(request.loop));
     return loops;
@@ -346,8 +346,7 @@ class Repairer {
     MeshPieces pieces = look_at_pieces();
     if (pieces.loops.empty()) return false;
     std::vector<FillRequest> requests =
-        choose_fills(mesh_, pieces.table, std::move(pieces.loops), are_zipped, cloud_, choice_)
-            .requests;
+        choose_fills(mesh_, pieces, std::move(pieces.loops), are_zipped, cloud_, choice_).requests;
     if (!are_zipped)
       std::erase_if(requests, [](const FillRequest& r) { return r.shape != FillShape::zipped; });
     const VerifiedFills fills = make(requests, pieces.table);

@@ -39,6 +39,10 @@ struct TriangleMesh {
   return unit_normal(positions[face[0]], positions[face[1]], positions[face[2]]);
 }
 
+[[nodiscard]] inline Vec3 centroid_of(const std::vector<Vec3>& positions, const Triangle& face) {
+  return (positions[face[0]] + positions[face[1]] + positions[face[2]]) / 3.0;
+}
+
 /// In square units of the positions.
 [[nodiscard]] inline double area_of_face(const std::vector<Vec3>& positions, const Triangle& face) {
   return 0.5 * glm::length(area_vector(positions[face[0]], positions[face[1]], positions[face[2]]));

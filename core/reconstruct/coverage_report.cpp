@@ -60,10 +60,6 @@ void report_uncovered(std::span<const Vec3> points, const std::vector<std::uint8
   report.uncovered_area = total_area(report.uncovered);
 }
 
-Vec3 centroid_of(const TriangleMesh& mesh, const Triangle& t) {
-  return (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3.0;
-}
-
 /// The points around a mesh, sorted for looking within `radius`.
 PointGrid grid_for_faces(std::span<const Vec3> points, const TriangleMesh& mesh, double radius) {
   Box region = bounds_of(mesh);
@@ -81,7 +77,7 @@ std::vector<std::uint8_t> supported_faces(std::span<const Vec3> points, const Tr
   parallel_for(mesh.triangles.size(), kFacesPerBlock, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
       is_supported[f] =
-          cloud.has_point_within(centroid_of(mesh, mesh.triangles[f]), radius) ? 1 : 0;
+          cloud.has_point_within(centroid_of(mesh.positions, mesh.triangles[f]), radius) ? 1 : 0;
     }
   });
   return is_supported;
@@ -94,7 +90,7 @@ std::vector<Place> places_of_faces(const TriangleMesh& mesh, const std::vector<s
   std::vector<double> areas;
   for (std::size_t f = 0; f < flags.size(); ++f) {
     if ((flags[f] != 0) != are_flagged) continue;
-    centroids.push_back(centroid_of(mesh, mesh.triangles[f]));
+    centroids.push_back(centroid_of(mesh.positions, mesh.triangles[f]));
     areas.push_back(area_of_face(mesh.positions, mesh.triangles[f]));
   }
   return places_of(centroids, areas, reach);

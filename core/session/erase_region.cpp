@@ -38,11 +38,6 @@ std::optional<Pixel> lasso_pixel(const Vec3& point, const View& view, const Mask
   return pixel;
 }
 
-Vec3 centroid_of(const TriangleMesh& mesh, std::size_t face) {
-  const auto& [a, b, c] = mesh.triangles[face];
-  return (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3.0;
-}
-
 bool faces_viewer(const TriangleMesh& mesh, std::size_t face, const View& view) {
   const auto& [a, b, c] = mesh.triangles[face];
   const Vec3 area = area_vector(mesh.positions[a], mesh.positions[b], mesh.positions[c]);
@@ -58,7 +53,7 @@ bool is_on_visible_sheet(const TriangleMesh& mesh, std::size_t face, Pixel pixel
   const PrimitiveId seen = drawn.id[pixel];
   if (seen == kNoPrimitive) return true;  // nothing is in front of it
   const double depth = view.depth_from_window_z(drawn.depth[pixel] * kDepthUnit);
-  const double behind = view.depth_of(centroid_of(mesh, face)) - depth;
+  const double behind = view.depth_of(centroid_of(mesh.positions, mesh.triangles[face])) - depth;
   return behind <= kReach * view.pixel_size(depth) &&
          faces_viewer(mesh, face, view) == faces_viewer(mesh, seen, view);
 }
@@ -75,7 +70,7 @@ FaceFlags visible_faces(const TriangleMesh& mesh, const View& view, const Mask& 
   }
   for (std::size_t face = 0; face < erased.size(); ++face) {
     if (erased[face] != 0) continue;
-    const auto pixel = lasso_pixel(centroid_of(mesh, face), view, lasso);
+    const auto pixel = lasso_pixel(centroid_of(mesh.positions, mesh.triangles[face]), view, lasso);
     if (pixel && is_on_visible_sheet(mesh, face, *pixel, view, drawn)) erased[face] = 1;
   }
   return erased;
@@ -84,7 +79,8 @@ FaceFlags visible_faces(const TriangleMesh& mesh, const View& view, const Mask& 
 FaceFlags all_faces_inside(const TriangleMesh& mesh, const View& view, const Mask& lasso) {
   FaceFlags erased(mesh.triangles.size(), 0);
   for (std::size_t face = 0; face < erased.size(); ++face) {
-    if (lasso_pixel(centroid_of(mesh, face), view, lasso)) erased[face] = 1;
+    if (lasso_pixel(centroid_of(mesh.positions, mesh.triangles[face]), view, lasso))
+      erased[face] = 1;
   }
   return erased;
 }
@@ -113,7 +109,7 @@ EraseResult erase_places(TriangleMesh mesh, std::span<const Sphere> places) {
   const SphereSet set(places);
   FaceFlags erased(mesh.triangles.size(), 0);
   for (std::size_t face = 0; face < erased.size(); ++face)
-    erased[face] = set.contains(centroid_of(mesh, face)) ? 1 : 0;
+    erased[face] = set.contains(centroid_of(mesh.positions, mesh.triangles[face])) ? 1 : 0;
   return without(std::move(mesh), erased);
 }
 

@@ -57,14 +57,15 @@ TEST_CASE(
   const CornerTable table(mesh.triangles, mesh.positions.size());
   const BoundaryLoop loop = boundary_loops(table).at(0);
   const PointGrid no_points({}, Box{}, kH);
-  const auto choice = [&](double sheet_area) {
+  const auto choice = [&](double sheet_area, bool has_narrow_gaps = false) {
     return choose_fill(mesh.positions, table, loop, sheet_area, false, no_points,
-                       {.pixel_size = kH});
+                       {.pixel_size = kH, .has_narrow_gaps = has_narrow_gaps});
   };
   const double as_disc = report.longest_loop * report.longest_loop / (4.0 * 3.14159265358979);
   CHECK_FALSE(choice(9.0 * as_disc));
   REQUIRE(choice(11.0 * as_disc));
   CHECK(choice(11.0 * as_disc)->shape == FillShape::zipped);
+  CHECK_FALSE(choice(11.0 * as_disc, true));
 }
 
 }  // namespace rangezip

@@ -78,6 +78,12 @@ void add_pocket(Cloud& cloud, std::mt19937_64& engine) {
   cloud.add(middle - y, x, z, {0, 30, 15}, engine);
 }
 
+Cloud cube_with_pocket(std::mt19937_64& engine) {
+  Cloud cloud = outside_of_cube(engine);
+  add_pocket(cloud, engine);
+  return cloud;
+}
+
 /// The cube with edges of h, closed over the pocket.
 TriangleMesh closed_cube() {
   TriangleMesh mesh = testing::cube(static_cast<int>(2.0 * kHalf / kH));
@@ -90,11 +96,6 @@ PointGrid grid_of(const Cloud& cloud) {
   return {cloud.points, {Vec3(-2.0 * kHalf), Vec3(2.0 * kHalf)}, 0.7 * kH};
 }
 
-Vec3 centroid_of(const TriangleMesh& mesh, std::size_t face) {
-  const auto& [a, b, c] = mesh.triangles[face];
-  return (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3.0;
-}
-
 }  // namespace
 
 TEST_CASE("the faces over a pocket that points look out of are papered, and no others",
@@ -102,14 +103,13 @@ TEST_CASE("the faces over a pocket that points look out of are papered, and no o
   const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
   CAPTURE(seed);
   std::mt19937_64 engine(seed);
-  Cloud cloud = outside_of_cube(engine);
-  add_pocket(cloud, engine);
+  const Cloud cloud = cube_with_pocket(engine);
   const TriangleMesh mesh = closed_cube();
   const auto is_papered = papered_faces(mesh, grid_of(cloud), cloud.seen(), kH);
   REQUIRE(is_papered.size() == mesh.triangles.size());
   std::size_t inner = 0, found = 0;
   for (std::size_t f = 0; f < is_papered.size(); ++f) {
-    const Vec3 p = centroid_of(mesh, f);
+    const Vec3 p = centroid_of(mesh.positions, mesh.triangles[f]);
     const bool is_over = p.z == kHalf && is_over_pocket(p);
     CHECK((is_papered[f] == 0 || is_over));
     if (!is_over || std::max(std::abs(p.x), std::abs(p.y)) > kPocket - 2.0 * kH) continue;
@@ -152,8 +152,7 @@ TEST_CASE("papered faces go, unless a hole of under two pixels is all that they 
   const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
   CAPTURE(seed);
   std::mt19937_64 engine(seed);
-  Cloud cloud = outside_of_cube(engine);
-  add_pocket(cloud, engine);
+  const Cloud cloud = cube_with_pocket(engine);
   TriangleMesh mesh = closed_cube();
   TriangleMesh crumb = mesh;  // four of the faces, of h^2 / 2, over the middle of the pocket
   testing::cut_where(crumb, [](const Vec3& p) {
@@ -171,14 +170,17 @@ TEST_CASE("the finish closes no pocket that points look out of", "[finish]") {
   const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
   CAPTURE(seed);
   std::mt19937_64 engine(seed);
-  Cloud cloud = outside_of_cube(engine);
-  add_pocket(cloud, engine);
+  const Cloud cloud = cube_with_pocket(engine);
   FinishOptions options{.method = FinishMethod::fast, .pixel_size = kH};
   CHECK(report_mesh(finish(closed_cube(), {cloud.points}, options).mesh).boundary_loops == 0);
 
   const FinishResult open = finish(closed_cube(), cloud.seen(), options);
   CHECK(open.report.papered_faces >= 32);
   CHECK(report_mesh(open.mesh).boundary_loops == 1);
+
+  options.max_hole_perimeter = 60.0;  // asked for, whatever looks out
+  CHECK(report_mesh(finish(closed_cube(), cloud.seen(), options).mesh).boundary_loops == 0);
+  options.max_hole_perimeter = 0.0;
 
   options.regrow = true;  // down into it
   const FinishResult grown = finish(closed_cube(), cloud.seen(), options);
