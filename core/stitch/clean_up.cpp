@@ -192,7 +192,7 @@ std::size_t split_fans(TriangleMesh& mesh, const Stars& stars, std::vector<std::
 
 void drop_small_components(TriangleMesh& mesh, const std::vector<std::uint8_t>& touched,
                            std::size_t min_component, const std::vector<std::uint8_t>& rim,
-                           CleanUpReport& report) {
+                           std::size_t kept, CleanUpReport& report) {
   DisjointSets pieces(mesh.positions.size());
   for (const Triangle& face : mesh.triangles) {
     pieces.join(face[0], face[1]);
@@ -201,8 +201,10 @@ void drop_small_components(TriangleMesh& mesh, const std::vector<std::uint8_t>& 
   std::vector<std::uint32_t> faces(mesh.positions.size(), 0);
   for (const Triangle& face : mesh.triangles)
     ++faces[pieces.find(face[0])];
-  for (std::uint32_t v = 0; v < rim.size(); ++v) {  // the rest of the piece is not known
-    if (rim[v] != 0) faces[pieces.find(v)] += static_cast<std::uint32_t>(min_component);
+  for (std::uint32_t v = 0; v < std::max(rim.size(), kept); ++v) {
+    const bool is_at_rim = v < rim.size() && rim[v] != 0;  // the rest of the piece is not known
+    const bool stays = is_at_rim || (v < kept && faces[pieces.find(v)] > 0);
+    if (stays) faces[pieces.find(v)] += static_cast<std::uint32_t>(min_component);
   }
   std::vector<std::uint8_t> is_touched(mesh.positions.size(), 0);
   for (std::uint32_t v = 0; v < touched.size(); ++v) {
@@ -224,7 +226,7 @@ void drop_small_components(TriangleMesh& mesh, const std::vector<std::uint8_t>& 
 
 CleanUpReport clean_up(TriangleMesh& mesh, std::vector<std::uint8_t> touched,
                        std::vector<std::uint8_t>& marks, std::size_t min_component,
-                       const std::vector<std::uint8_t>& rim) {
+                       const std::vector<std::uint8_t>& rim, std::size_t kept) {
   CleanUpReport report;
   Stars stars(mesh, touched);
   for (int round = 0; round < kRounds; ++round) {
@@ -235,7 +237,7 @@ CleanUpReport clean_up(TriangleMesh& mesh, std::vector<std::uint8_t> touched,
   }
   report.split_vertices = split_fans(mesh, stars, marks);
   touched.resize(mesh.positions.size(), 1);
-  drop_small_components(mesh, touched, min_component, rim, report);
+  drop_small_components(mesh, touched, min_component, rim, kept, report);
   return report;
 }
 

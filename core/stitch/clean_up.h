@@ -25,10 +25,12 @@ struct CleanUpReport {
 /// @param marks one per vertex; copies get theirs
 /// @param rim one per vertex: 1 where faces are missing here that belong to the surface; faces with
 ///     such a corner stay, and so do pieces that reach one. Empty: none
+/// @param kept pieces with one of the first `kept` vertices stay
 /// @pre no directed edge in two faces, and vertices not touched are manifold
 [[nodiscard]] CleanUpReport clean_up(TriangleMesh& mesh, std::vector<std::uint8_t> touched,
                                      std::vector<std::uint8_t>& marks, std::size_t min_component,
-                                     const std::vector<std::uint8_t>& rim = {});
+                                     const std::vector<std::uint8_t>& rim = {},
+                                     std::size_t kept = 0);
 
 /// Whether every marked (1) vertex has one fan of faces, or none, and none of the directed edges
 /// from or to it is in two faces: what clean_up() promises, looked at again.

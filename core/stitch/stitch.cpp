@@ -34,6 +34,9 @@ constexpr int kFirstWithdrawal = 2;
 constexpr int kEqualWithdrawals = 6;
 constexpr int kWithdrawals = 10;
 
+/// A patch of which less than one in so many faces is left counts as given up.
+constexpr std::size_t kGivenUp = 10;
+
 /// The part is cut out this much wider than the seam can be, pixels.
 constexpr int kPartMargin = 2;
 
@@ -49,12 +52,25 @@ void check_indices(const TriangleMesh& mesh) {
   }
 }
 
+/// A patch that is joined to a part of the mesh.
+struct Joined {
+  TriangleMesh mesh;  ///< the part
+  FaceChanges changes;
+  StitchReport report;
+  StitchRecord record;  ///< by the part's faces
+};
+
 /// One way of joining a patch to the part of the mesh around it.
 class Attempt {
  public:
+  /// @param keeps_old whether pieces of the mesh so far stay, however small the patch leaves them
   Attempt(const MeshPart& part, const ImagePlane& image, const PatchScan& scan,
-          const StitchOptions& options)
-      : part_(part), image_(image), scan_(scan), options_(options) {}
+          const StitchOptions& options, bool keeps_old)
+      : part_(part),
+        image_(image),
+        scan_(scan),
+        options_(options),
+        kept_(keeps_old ? part.mesh.positions.size() : 0) {}
 
   void join();
   void roll_back_crossings();
@@ -62,9 +78,10 @@ class Attempt {
   [[nodiscard]] std::vector<Pixel> lost_pixels();
 
   [[nodiscard]] const TriangleMesh& mesh() const { return joint_.mesh; }
-  [[nodiscard]] const FaceChanges& changes() const { return changes_; }
   [[nodiscard]] const StitchReport& report() const { return report_; }
-  [[nodiscard]] const StitchRecord& record() const { return record_; }
+  [[nodiscard]] Joined result() && {
+    return {std::move(joint_.mesh), std::move(changes_), report_, std::move(record_)};
+  }
 
  private:
   void clean();
@@ -77,15 +94,16 @@ class Attempt {
   const ImagePlane& image_;  ///< of the part
   PatchScan scan_;
   const StitchOptions& options_;
+  std::size_t kept_;  ///< vertices whose pieces stay
   Joint joint_;
   FaceChanges changes_;
   StitchReport report_;
-  StitchRecord record_;  ///< by the part's faces
+  StitchRecord record_;
 };
 
 void Attempt::clean() {
-  const CleanUpReport cleaned =
-      clean_up(joint_.mesh, joint_.touched, joint_.seam, options_.min_component, part_.is_rim);
+  const CleanUpReport cleaned = clean_up(joint_.mesh, joint_.touched, joint_.seam,
+                                         options_.min_component, part_.is_rim, kept_);
   report_.opened_fans += cleaned.opened_fans;
   report_.split_vertices += cleaned.split_vertices;
   report_.dropped_components += cleaned.dropped_components;
@@ -232,45 +250,95 @@ bool reaches_rim(const MeshPart& part, const std::vector<std::uint8_t>& is_chang
   return false;
 }
 
+/// One attempt, and whether it can stay.
+struct Tried {
+  Attempt attempt;
+  bool reaches_rim = false;
+  bool is_manifold = false;
+  std::vector<Pixel> lost;
+};
+
+Tried try_to_join(const MeshPart& part, const ImagePlane& image, const PatchScan& scan,
+                  const StitchOptions& options, bool keeps_old) {
+  Tried tried{Attempt(part, image, scan, options, keeps_old)};
+  tried.attempt.join();
+  tried.attempt.roll_back_crossings();
+  const std::vector<std::uint8_t> is_changed = tried.attempt.changed_vertices();
+  tried.reaches_rim = reaches_rim(part, is_changed);
+  if (tried.reaches_rim) return tried;
+  run_side_by_side([&] { tried.is_manifold = is_manifold_at(tried.attempt.mesh(), is_changed); },
+                   [&] { tried.lost = tried.attempt.lost_pixels(); });
+  return tried;
+}
+
 /// What was done to the mesh.
 struct Stitched {
   StitchReport report;
   StitchRecord record;
 };
 
+/// What is left of a patch once no pixel loses its surface.
+struct Settled {
+  std::optional<Joined> joined;  ///< none: nothing is left of it
+  Patch patch;
+  bool reaches_rim = false;     ///< the part is too small to tell
+  bool dropped_crumbs = false;  ///< in any attempt
+
+  [[nodiscard]] std::size_t faces() const { return joined ? grid_triangle_count(patch) : 0; }
+};
+
+/// Withdraws the patch until it can stay.
+Settled settle(const MeshPart& part, const ImagePlane& image, const Scan& scan,
+               const StitchOptions& options, bool keeps_old) {
+  Settled settled{.patch = scan.patch};
+  Patch whole = scan.decimate ? scan.whole_patch : scan.patch;
+  int radius = kFirstWithdrawal;
+  for (int round = 1; !settled.patch.mesh.empty(); ++round) {
+    Tried tried = try_to_join(part, image, PatchScan(scan, settled.patch, part.face_in_whole),
+                              options, keeps_old);
+    settled.reaches_rim = tried.reaches_rim;
+    settled.dropped_crumbs |= tried.attempt.report().dropped_faces > 0;
+    if (tried.reaches_rim || !tried.is_manifold) break;
+    if (tried.lost.empty()) {
+      settled.joined = std::move(tried.attempt).result();
+      break;
+    }
+    if (round > kWithdrawals) break;
+    whole = withdraw_locally(scan.image, whole, tried.lost, radius);
+    settled.patch = scan.decimate ? decimate(scan.image, whole, *scan.decimate) : whole;
+    if (round >= kEqualWithdrawals) radius *= 2;
+  }
+  return settled;
+}
+
+/// The same. Where a crumb of the mesh so far went nothing may lie any more, wherever the patch
+/// ends: before the patch is given up for that, crumbs stay.
+Settled settle_or_keep_crumbs(const MeshPart& part, const ImagePlane& image, const Scan& scan,
+                              const StitchOptions& options) {
+  Settled settled = settle(part, image, scan, options, false);
+  const bool is_given_up = kGivenUp * settled.faces() < grid_triangle_count(scan.patch);
+  if (settled.reaches_rim || !is_given_up || !settled.dropped_crumbs) return settled;
+  Settled with_crumbs = settle(part, image, scan, options, true);
+  const bool is_more = with_crumbs.reaches_rim || with_crumbs.faces() > settled.faces();
+  return is_more ? std::move(with_crumbs) : std::move(settled);
+}
+
 /// Stitches into a part of the mesh; nothing is done, and nothing returned, if the part is too
 /// small for that.
 std::optional<Stitched> stitch_into(TriangleMesh& mesh, const MeshPart& part, const Scan& scan,
                                     const StitchOptions& options) {
   const ImagePlane image = project_to_image(part.mesh.positions, scan.image.view());
-  Patch whole = scan.decimate ? scan.whole_patch : scan.patch;
-  Patch patch = scan.patch;
-  int radius = kFirstWithdrawal;
-  for (int round = 1; !patch.mesh.empty(); ++round) {
-    Attempt attempt(part, image, PatchScan(scan, patch, part.face_in_whole), options);
-    attempt.join();
-    attempt.roll_back_crossings();
-    const std::vector<std::uint8_t> is_changed = attempt.changed_vertices();
-    if (reaches_rim(part, is_changed)) return std::nullopt;
-    bool is_manifold = false;
-    std::vector<Pixel> lost;
-    run_side_by_side([&] { is_manifold = is_manifold_at(attempt.mesh(), is_changed); },
-                     [&] { lost = attempt.lost_pixels(); });
-    if (!is_manifold) break;
-    StitchReport report = attempt.report();
-    report.withdrawn_faces = grid_triangle_count(scan.patch) - grid_triangle_count(patch);
-    if (lost.empty()) {
-      put_back(mesh, part, attempt.mesh(), attempt.changes());
-      return Stitched{report, record_of_whole(attempt.record(), part, patch.pixels, scan.patch)};
-    }
-    if (round > kWithdrawals) break;
-    whole = withdraw_locally(scan.image, whole, lost, radius);
-    patch = scan.decimate ? decimate(scan.image, whole, *scan.decimate) : whole;
-    if (round >= kEqualWithdrawals) radius *= 2;
+  const Settled settled = settle_or_keep_crumbs(part, image, scan, options);
+  if (settled.reaches_rim) return std::nullopt;
+  Stitched stitched;
+  if (settled.joined) {
+    const Joined& joined = *settled.joined;
+    put_back(mesh, part, joined.mesh, joined.changes);
+    stitched = {joined.report,
+                record_of_whole(joined.record, part, settled.patch.pixels, scan.patch)};
   }
-  StitchReport report;
-  report.withdrawn_faces = grid_triangle_count(scan.patch);
-  return Stitched{report, {}};
+  stitched.report.withdrawn_faces = grid_triangle_count(scan.patch) - settled.faces();
+  return stitched;
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ struct StitchResult {
 /// - every pixel that showed the surface shows it (find_lost_pixels()), and every place of it has a
 ///   face within a pixel side (find_lost_places()): where a hole would appear the patch is
 ///   withdrawn from it by 2 pixels or as many as reach it, as often as it takes, later by more, at
-///   last altogether;
+///   last altogether; before that, crumbs of `mesh` that it leaves are kept;
 /// - faces whose image is nowhere near the patch are the same, bit by bit.
 ///
 /// clear_and_fill removes every front-facing old face that overlaps a patch cell within the band

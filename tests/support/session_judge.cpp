@@ -175,6 +175,9 @@ void add_repairs(const StitchReport& report, Outcome& outcome) {
   outcome.repairs["crossing_patch_faces"] += report.crossing_patch_faces;
   outcome.repairs["withdrawn_faces"] += report.withdrawn_faces;
   outcome.repairs["patch_faces"] += report.patch_faces;
+  outcome.repairs["patches"] += report.patch_faces + report.withdrawn_faces > 0 ? 1 : 0;
+  outcome.repairs["patches_given_up"] +=
+      report.patch_faces == 0 && report.withdrawn_faces > 0 ? 1 : 0;
 }
 
 std::string kind_of(const Command& command) {

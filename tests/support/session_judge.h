@@ -40,7 +40,8 @@ struct Outcome {
   std::vector<Step> steps;
   std::size_t faces = 0;                       ///< of the last mesh
   std::map<std::string, std::size_t> repairs;  ///< faces that the stitches report as rolled back,
-                                               ///< beside those of the patches that came in
+                                               ///< beside those of the patches that came in,
+                                               ///< and patches, of them given up as a whole
 };
 
 /// Runs the session and judges the mesh after each command. A command that throws ends it.

@@ -229,11 +229,11 @@ TEST_CASE("clean_up removes small fans and splits large ones", "[stitch]") {
       std::replace(t.begin(), t.end(), copy, corner);
     return mesh;
   };
-  const auto cleaned = [](TriangleMesh& mesh, std::size_t min_component) {
+  const auto cleaned = [](TriangleMesh& mesh, std::size_t min_component, std::size_t kept = 0) {
     std::vector<std::uint8_t> touched(mesh.positions.size(), 0);
     touched[80] = 1;
     std::vector<std::uint8_t> marks = touched;
-    const CleanUpReport report = clean_up(mesh, touched, marks, min_component);
+    const CleanUpReport report = clean_up(mesh, touched, marks, min_component, {}, kept);
     CHECK(marks.size() == mesh.positions.size());
     check_mesh(mesh);
     return report;
@@ -272,5 +272,15 @@ TEST_CASE("clean_up removes small fans and splits large ones", "[stitch]") {
     CHECK(report.dropped_components == 1);
     CHECK(report.dropped_faces + report.opened_fans == 18);
     CHECK(mesh.triangles.size() == 128 + 8);
+  }
+  SECTION("a small piece stays if it has a vertex of those that are kept") {
+    const std::size_t first_of_small = 81;
+    for (const std::size_t kept : {first_of_small, first_of_small + 2}) {
+      CAPTURE(kept);
+      TriangleMesh mesh = two_sheets(3);
+      const CleanUpReport report = cleaned(mesh, 40, kept);
+      CHECK(report.dropped_components == (kept == first_of_small ? 1U : 0U));
+      CHECK(mesh.triangles.size() == 128 + (kept == first_of_small ? 0U : 16U));
+    }
   }
 }
