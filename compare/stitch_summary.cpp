@@ -68,8 +68,8 @@ StitchSummary summarize_session(std::span<const StitchStep> steps) {
 
 bool StitchSummary::is_good(const StitchLimits& limits) const {
   return samples.acceptance() >= limits.location && insertions.acceptance() >= limits.location &&
-         segments.ratio_p99 <= limits.length_ratio && not_repeatable == 0 && not_manifold == 0 &&
-         finished_faults == 0 && new_crossings == 0;
+         nearest.acceptance() >= limits.location && segments.ratio_p99 <= limits.length_ratio &&
+         not_repeatable == 0 && not_manifold == 0 && finished_faults == 0 && new_crossings == 0;
 }
 
 }  // namespace rangezip::compare

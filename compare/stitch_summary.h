@@ -50,7 +50,7 @@ struct StitchSummary {
   std::size_t stitches = 0;
   LocationSummary samples;
   LocationSummary insertions;
-  LocationSummary nearest;  ///< no limit: the image decides where a vertex goes
+  LocationSummary nearest;  ///< of the insertions, whatever stands in the line of sight
   SegmentSummary segments;
   std::size_t not_repeatable = 0;   ///< stitches
   std::size_t not_manifold = 0;     ///< commands after which the mesh is not manifold and oriented

@@ -177,7 +177,8 @@ void print_stitches(std::ostream& out, std::span<const std::string> commands,
   out << fmt::format("inserted vertices, face in sight: {} ({})\n",
                      locations_text(summary.insertions),
                      location_limit(summary.insertions, limits));
-  out << fmt::format("inserted vertices, nearest face: {}\n", locations_text(summary.nearest));
+  out << fmt::format("inserted vertices, nearest face: {} ({})\n", locations_text(summary.nearest),
+                     location_limit(summary.nearest, limits));
   print_segments(out, summary.segments, limits);
   out << fmt::format(
       "meshes: {} not manifold and oriented, {} faults after a finish, {} self-intersections made "

@@ -113,7 +113,13 @@ VertexHandle insert(SheetMesh& sheet, const Place& place, const BoundaryVertex& 
 
 }  // namespace
 
-InsertedVertices insert_boundary_vertices(SheetMesh& sheet,
+double distance_to_face(const TriangleMesh& mesh, std::uint32_t face, const Vec3& point) {
+  const auto& [a, b, c] = mesh.triangles[face];
+  return std::sqrt(
+      squared_distance_to_triangle(point, mesh.positions[a], mesh.positions[b], mesh.positions[c]));
+}
+
+InsertedVertices insert_boundary_vertices(SheetMesh& sheet, const TriangleMesh& old_surface,
                                           std::span<const BoundaryVertex> vertices,
                                           std::span<const FaceHandle> faces,
                                           const PatchSheet& patch, double band) {
@@ -128,7 +134,9 @@ InsertedVertices insert_boundary_vertices(SheetMesh& sheet,
     const double limit = kDepthShare * band * patch[vertex.pixel].stretch *
                          patch.image().view().pixel_size(vertex.depth);
     if (std::abs(depth_in_face(sheet, place.face, point) - vertex.depth) > limit) continue;
-    result.faces[i] = sheet.face_in_whole[static_cast<std::size_t>(place.face.idx())];
+    const std::uint32_t face = sheet.face_in_whole[static_cast<std::size_t>(place.face.idx())];
+    if (distance_to_face(old_surface, face, vertex.position) > vertex.reach) continue;
+    result.faces[i] = face;
     result.handles[i] = insert(sheet, place, vertex);
     ++result.inserted;
   }

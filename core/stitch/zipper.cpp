@@ -1,6 +1,8 @@
 #include "core/stitch/zipper.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 
 #include "core/mesh/edge_map.h"
 #include "core/stitch/insert_segments.h"
@@ -12,6 +14,9 @@
 namespace rangezip {
 
 namespace {
+
+/// In pixel sides: how much farther than the nearest face one may be that a vertex is put into.
+constexpr double kSlack = 0.1;
 
 bool meets_patch(const Triangle& face, const ImagePlane& image, const PatchSheet& sheet) {
   const bool is_visible =
@@ -65,6 +70,13 @@ PrimitiveId rank_of(PrimitiveId number, std::span<const std::uint32_t> numbers) 
   return static_cast<PrimitiveId>(found - numbers.begin());
 }
 
+std::array<Pixel, 10> pixel_and_neighbours(Pixel pixel) {
+  std::array<Pixel, 10> pixels{pixel};
+  for (int k = 0; k < 9; ++k)
+    pixels[static_cast<std::size_t>(k) + 1] = {pixel.x + k % 3 - 1, pixel.y + k / 3 - 1};
+  return pixels;
+}
+
 class Zipper {
  public:
   Zipper(Joint& joint, const PatchScan& scan, const StitchOptions& options, StitchReport& report,
@@ -90,7 +102,8 @@ class Zipper {
   [[nodiscard]] std::vector<std::uint32_t> boundary_vertices() const;
   [[nodiscard]] std::vector<SheetMesh::FaceHandle> start_faces(
       std::span<const std::uint32_t> vertices) const;
-  [[nodiscard]] SheetMesh::FaceHandle face_in_sheet(Pixel pixel) const;
+  [[nodiscard]] PrimitiveId old_face_at(Pixel pixel) const;
+  [[nodiscard]] double distance_to_old(std::uint32_t patch_vertex) const;
   void merge(std::uint32_t patch_vertex, std::uint32_t old_vertex);
   [[nodiscard]] std::vector<Triangle> faces_beside_patch();
 
@@ -123,22 +136,36 @@ std::vector<SheetMesh::FaceHandle> Zipper::start_faces(
     std::span<const std::uint32_t> vertices) const {
   std::vector<SheetMesh::FaceHandle> faces;
   for (const std::uint32_t v : vertices) {
-    const Pixel p = scan_.patch.pixels[v];
-    SheetMesh::FaceHandle face = face_in_sheet(p);
-    for (int k = 0; k < 9 && !face.is_valid(); ++k)
-      face = face_in_sheet({p.x + k % 3 - 1, p.y + k / 3 - 1});
+    SheetMesh::FaceHandle face;
+    for (const Pixel p : pixel_and_neighbours(scan_.patch.pixels[v])) {
+      const PrimitiveId in_sheet = rank_of(old_face_at(p), sheet_.face_in_whole);
+      if (in_sheet == kNoPrimitive) continue;
+      face = SheetMesh::FaceHandle(static_cast<int>(in_sheet));
+      break;
+    }
     faces.push_back(face);
   }
   return faces;
 }
 
-SheetMesh::FaceHandle Zipper::face_in_sheet(Pixel pixel) const {
-  if (!scan_.image.extent().contains(pixel)) return SheetMesh::FaceHandle();
-  PrimitiveId face = scan_.seen_face[pixel];
-  if (!scan_.face_in_seen.empty()) face = rank_of(face, scan_.face_in_seen);
-  face = rank_of(face, sheet_.face_in_whole);
-  return face == kNoPrimitive ? SheetMesh::FaceHandle()
-                              : SheetMesh::FaceHandle(static_cast<int>(face));
+/// The face of the old surface that corresponds to a sample: the nearest one. kNoPrimitive: none.
+PrimitiveId Zipper::old_face_at(Pixel pixel) const {
+  if (!scan_.image.extent().contains(pixel)) return kNoPrimitive;
+  const PrimitiveId face = scan_.seen_face[pixel];
+  return scan_.face_in_seen.empty() ? face : rank_of(face, scan_.face_in_seen);
+}
+
+/// Of a vertex of the patch from the nearest face that corresponds to it or a neighbour; infinite
+/// without any.
+double Zipper::distance_to_old(std::uint32_t patch_vertex) const {
+  const Vec3& position = joint_.mesh.positions[joint_.first_new + patch_vertex];
+  double least = std::numeric_limits<double>::infinity();
+  for (const Pixel p : pixel_and_neighbours(scan_.patch.pixels[patch_vertex])) {
+    const PrimitiveId face = old_face_at(p);
+    if (face != kNoPrimitive)
+      least = std::min(least, distance_to_face(joint_.mesh, face, position));
+  }
+  return least;
 }
 
 /// The vertex of the patch becomes one with an old one that has the same image.
@@ -157,13 +184,16 @@ void Zipper::insert_vertices() {
   std::vector<BoundaryVertex> to_insert;
   for (const std::uint32_t v : vertices) {
     const std::uint32_t index = joint_.first_new + v;
-    to_insert.push_back({.index = index,
-                         .pixel = scan_.patch.pixels[v],
-                         .position = joint_.mesh.positions[index],
-                         .depth = joint_.image.depths[index]});
+    const double depth = joint_.image.depths[index];
+    to_insert.push_back(
+        {.index = index,
+         .pixel = scan_.patch.pixels[v],
+         .position = joint_.mesh.positions[index],
+         .depth = depth,
+         .reach = distance_to_old(v) + kSlack * scan_.image.view().pixel_size(depth)});
   }
   const InsertedVertices inserted = insert_boundary_vertices(
-      sheet_, to_insert, start_faces(vertices), patch_sheet_, options_.band);
+      sheet_, joint_.mesh, to_insert, start_faces(vertices), patch_sheet_, options_.band);
   handles_.resize(scan_.patch.pixels.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     handles_[vertices[i]] = inserted.handles[i];

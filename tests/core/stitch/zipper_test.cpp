@@ -72,7 +72,8 @@ TEST_CASE("a boundary vertex goes into a face, onto an edge, or takes a vertex's
   CAPTURE(c.pixel.x, c.pixel.y);
   const std::vector<BoundaryVertex> vertices{vertex_at(c.pixel, 20.5)};
   const std::vector<FaceHandle> start{FaceHandle(31)};  // far away: a walk
-  const InsertedVertices inserted = insert_boundary_vertices(sheet, vertices, start, patch, 1.0);
+  const InsertedVertices inserted =
+      insert_boundary_vertices(sheet, mesh, vertices, start, patch, 1.0);
   REQUIRE(inserted.inserted == 1);
   const VertexHandle v = inserted.handles[0];
   CHECK(sheet.point(v) == grid_point(c.pixel));
@@ -89,13 +90,18 @@ TEST_CASE("a boundary vertex goes into a face, onto an edge, or takes a vertex's
 TEST_CASE("a boundary vertex without a place in the sheet stays out", "[stitch]") {
   const Scan scan = wide_scan();
   const PatchSheet patch(scan, 5);
-  SheetMesh sheet = sheet_of(lattice({16.0, 16.0}, 4, 4, 4.0, 20.0));
+  const TriangleMesh old_surface = lattice({16.0, 16.0}, 4, 4, 4.0, 20.0);
+  SheetMesh sheet = sheet_of(old_surface);
+  BoundaryVertex too_far = vertex_at({21, 18}, 20.5);
+  too_far.reach = 0.49;
   const std::vector<BoundaryVertex> vertices{
+      too_far,                     // half a pixel side before the face in sight
       vertex_at({40, 20}, 20.0),   // beside the sheet
       vertex_at({21, 18}, 21.6),   // farther in depth than 1.5 bands of one pixel side
       vertex_at({21, 18}, 20.0)};  // with no face to start from
-  const std::vector<FaceHandle> start{FaceHandle(0), FaceHandle(0), FaceHandle()};
-  const InsertedVertices inserted = insert_boundary_vertices(sheet, vertices, start, patch, 1.0);
+  const std::vector<FaceHandle> start{FaceHandle(0), FaceHandle(0), FaceHandle(0), FaceHandle()};
+  const InsertedVertices inserted =
+      insert_boundary_vertices(sheet, old_surface, vertices, start, patch, 1.0);
   CHECK(inserted.inserted == 0);
   for (const VertexHandle v : inserted.handles)
     CHECK_FALSE(v.is_valid());
