@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/finish/corner_table.h"
@@ -11,6 +12,9 @@ namespace {
 
 /// An open component with fewer faces than this part of the largest is a shred.
 constexpr std::size_t kShredShare = 200;
+
+/// Area vector over area: of half a sphere. What is flatter has no inside, nor pockets.
+constexpr double kFlatSheet = 0.5;
 
 bool repeats_corner(const Triangle& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
@@ -115,6 +119,20 @@ bool mark_extra_fans(const TriangleMesh& mesh, std::vector<std::uint8_t>& droppe
   return true;
 }
 
+/// Whether a component is a sheet that is seen as a whole from one side.
+bool is_flat_sheet(const TriangleMesh& mesh, const std::vector<std::uint32_t>& component,
+                   std::uint32_t which) {
+  Vec3 across{0.0};
+  double area = 0.0;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    if (component[f] != which) continue;
+    const Triangle& t = mesh.triangles[f];
+    across += 0.5 * area_vector(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
+    area += area_of_face(mesh.positions, t);
+  }
+  return glm::length(across) >= kFlatSheet * area;
+}
+
 }  // namespace
 
 std::size_t clean_topology(TriangleMesh& mesh) {
@@ -147,12 +165,19 @@ DroppedComponents drop_small_components(TriangleMesh& mesh, const CornerTable& t
     if (table.across(c) == CornerTable::kNone) is_open[k] = 1;
   }
   DroppedComponents result;
-  const auto largest = std::max_element(sizes.begin(), sizes.end());
+  if (sizes.empty()) return result;
+  const auto largest =
+      static_cast<std::size_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+  std::optional<bool> is_scene;  // asked of the largest once there is a shred
   std::vector<std::uint8_t> goes(sizes.size(), 0);
   for (std::size_t k = 0; k < sizes.size(); ++k) {
-    const bool is_shred = min_faces > 0 && is_open[k] != 0 && kShredShare * sizes[k] < *largest;
-    if (sizes[k] >= min_faces && !is_shred) continue;
-    if (sizes.begin() + static_cast<std::ptrdiff_t>(k) == largest) continue;
+    if (k == largest) continue;
+    const bool is_small = sizes[k] < min_faces;
+    const bool may_be_shred =
+        min_faces > 0 && is_open[k] != 0 && kShredShare * sizes[k] < sizes[largest];
+    if (!is_small && may_be_shred && !is_scene)
+      is_scene = is_flat_sheet(mesh, component, static_cast<std::uint32_t>(largest));
+    if (!is_small && (!may_be_shred || *is_scene)) continue;
     goes[k] = 1;
     ++result.components;
     result.faces += sizes[k];

@@ -22,8 +22,10 @@ struct DroppedComponents {
 
 /// Drops the components (joined over shared edges) with fewer than `min_faces` faces, and shreds:
 /// open ones with less than a two-hundredth of the faces of the largest component, which are
-/// pieces of walls in pockets that no view connects. The largest one (the earliest of equals)
-/// always stays. With 0 all stay. Positions stay.
+/// pieces of walls in pockets that no view connects. A sheet has no pockets if its area vector is
+/// at least half its area (it is flatter than half a sphere): beside it they are things of their
+/// own, such as roofs over a ground, and stay. The largest one (the earliest of equals) always
+/// stays. With 0 all stay. Positions stay.
 /// @param table of the mesh, as it is before
 /// @param component of each face: components_of(table)
 /// @pre oriented and manifold

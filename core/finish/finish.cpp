@@ -50,6 +50,8 @@ constexpr int kThinnedParts = 2;
 /// In h: girth of handles that no object has, since scans resolve what is 2 h thick (over 6 h
 /// around).
 constexpr double kThinHandle = 5.5;
+/// In h: the same across gaps that scans do not resolve: pillars of a pixel or two.
+constexpr double kPillar = 6.5;
 /// In h: girth of handles that the object does not have if points lie within.
 constexpr double kFilledHandle = 9.0;
 /// Between contours a window may span four gaps: two contours on both sides tell the bending.
@@ -166,6 +168,7 @@ void remove_thin_handles(TriangleMesh& mesh, const PointGrid& cloud, const Finis
   ThinHandleOptions thin{.max_girth = kThinHandle * h};
   if (options.narrow_gaps) {
     thin.gaps = {&cloud, h};
+    thin.max_girth = kPillar * h;
   } else {
     thin.filled_girth = kFilledHandle * h;
     thin.cloud = {&cloud, h};

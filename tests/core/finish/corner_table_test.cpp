@@ -194,6 +194,27 @@ TEST_CASE(
   REQUIRE(kept.triangles == (is_open ? large : mesh).triangles);
 }
 
+TEST_CASE("beside a sheet flatter than half a sphere an open piece is no shred") {
+  // Caps of a sphere: area vector over area is (1 + height) / 2 with the height of the plane that
+  // cuts them off, here for 6912 faces of the whole sphere.
+  const double height = GENERATE(-0.2, 0.2);
+  CAPTURE(height);
+  TriangleMesh mesh = testing::sphere(24);
+  testing::cut_where(mesh, [&](const Vec3& p) { return p.z < height; });
+  const std::size_t of_cap = mesh.triangles.size();
+  TriangleMesh piece = testing::cube(1);
+  piece.triangles.pop_back();
+  const auto shift = static_cast<std::uint32_t>(mesh.positions.size());
+  for (const Vec3& p : piece.positions)
+    mesh.positions.push_back(p + Vec3(0, 0, 5));
+  for (const Triangle& t : piece.triangles)
+    mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+  const bool stays = height > 0.0;
+  CHECK(drop_small(mesh, 5).components == (stays ? 0U : 1U));
+  CHECK(mesh.triangles.size() == of_cap + (stays ? piece.triangles.size() : 0U));
+  CHECK(drop_small(mesh, 12).components == (stays ? 1U : 0U));  // small ones go beside any
+}
+
 TEST_CASE("clean_topology makes any soup of faces manifold and leaves manifolds alone") {
   TriangleMesh sphere = testing::sphere(5);
   REQUIRE(clean_topology(sphere) == 0);
