@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <string>
@@ -45,6 +46,11 @@ constexpr double kMinNewInHoles = 30;          ///< points that such a view must
 constexpr std::size_t kHoleSamples = 200'000;  ///< drawn to plan them: what hides a place is large
 /// In h: around a place so much more is scanned than was erased.
 constexpr double kRescanMargin = 1.0;
+/// In h: so far around what a re-scan has lost it is scanned as before, in so many rounds.
+constexpr double kRecoverRadius = 2.0;
+constexpr int kRecoverRounds = 2;
+constexpr std::size_t kManyMore = 4;  ///< times as many points: what a re-scan has lost
+constexpr double kMinRecovered = 4;   ///< points that such a view must add
 constexpr double kMinNewPoints = 40;  ///< that a view must add: fewer are a few pixels
 /// Of the samples: less is left out by noise and in the pockets of real scans, where more views
 /// make handles rather than surface.
@@ -114,6 +120,29 @@ void check_options(const Scene& scene, const ReconstructOptions& options) {
     throw InvalidArgument("reconstruct: threads must not be negative, got " +
                           std::to_string(options.threads));
   }
+}
+
+std::vector<Vec3> points_in(const Sphere& place, const std::vector<Vec3>& points) {
+  std::vector<Vec3> inside;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(inside),
+               [&](const Vec3& p) { return place.contains(p); });
+  return inside;
+}
+
+/// The points that are uncovered after a change, and were not before, in the places in which many
+/// more are than were: in others lies the wall of a hole, of which any part is a gain.
+/// @param before, after in the same order of the same samples
+std::vector<Vec3> lost_in(const std::vector<Sphere>& places, const std::vector<Vec3>& before,
+                          const std::vector<Vec3>& after) {
+  std::vector<Vec3> lost;
+  for (const Sphere& place : places) {
+    const std::vector<Vec3> was = points_in(place, before);
+    const std::vector<Vec3> is = points_in(place, after);
+    if (is.size() <= kManyMore * was.size()) continue;
+    std::copy_if(is.begin(), is.end(), std::back_inserter(lost),
+                 [&](const Vec3& p) { return std::find(was.begin(), was.end(), p) == was.end(); });
+  }
+  return lost;
 }
 
 /// One automatic run. Every change to the mesh is a command of a Session, so the run can be
@@ -292,6 +321,7 @@ class Run {
     const DensePlaces dense =
         find_dense_places(samples_, *session_.mesh(), recipe_.pixel_size, noise_);
     if (!dense.places.empty()) {
+      const std::vector<Vec3> uncovered = uncovered_samples();
       const ScanRecipe recipe = erase_for_rescan(dense.places, dense.pixel_size);
       ViewPlanOptions plan_options;
       if (options_.views) plan_options.max_views = *options_.views;
@@ -303,6 +333,7 @@ class Run {
           left_out_points(dense.points, *session_.mesh(), recipe.pixel_size);
       if (may_add_views() && !targets.empty())
         scan_from(views_of(targets, recipe, kCoverSamples, kMinNewPoints), recipe, fill_scan);
+      recover(uncovered, dense.places);
     }
     clock_.finish("dense places");
   }
@@ -314,12 +345,14 @@ class Run {
     const double h = recipe_.pixel_size;
     const PaperedHoles holes = find_papered_holes(samples_, *session_.mesh(), h);
     if (holes.places.empty()) return;
+    const std::vector<Vec3> uncovered = uncovered_samples();
     const ScanRecipe recipe = erase_for_rescan(holes.places, kCoverPixel * h);
     std::vector<Vec3> targets = holes.points;
     for (int round = 0; round < kHoleRounds && !targets.empty(); ++round) {
       scan_from(views_of(targets, recipe, kHoleSamples, kMinNewInHoles), recipe, fill_scan);
       targets = left_out_points(holes.points, *session_.mesh(), kLeftOutOfHole * h);
     }
+    recover(uncovered, holes.places);
     clock_.finish("papered holes");
   }
 
@@ -332,6 +365,21 @@ class Run {
     for (Sphere& place : recipe.places)
       place.radius += kRescanMargin * recipe_.pixel_size;
     return recipe;
+  }
+
+  /// Where finer pixels have found far less than they took off, it is scanned with the usual ones
+  /// again. Not elsewhere, nor where there are narrow gaps: these would be closed again.
+  /// @param before uncovered_samples() before the mesh was taken off
+  void recover(const std::vector<Vec3>& before, const std::vector<Sphere>& places) {
+    if (!may_add_views() || has_narrow_gaps_) return;
+    for (int round = 0; round < kRecoverRounds; ++round) {
+      const std::vector<Vec3> lost = lost_in(places, before, uncovered_samples());
+      if (lost.empty()) return;
+      ScanRecipe recipe = recipe_;
+      for (const Vec3& point : lost)
+        recipe.places.push_back({point, kRecoverRadius * recipe_.pixel_size});
+      scan_from(views_of(lost, recipe, kCoverSamples, kMinRecovered), recipe, fill_scan);
+    }
   }
 
   /// Directions from which points are seen that the mesh leaves out.
