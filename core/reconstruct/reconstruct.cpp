@@ -367,13 +367,16 @@ class Run {
     return recipe;
   }
 
-  /// Where finer pixels have found far less than they took off, it is scanned with the usual ones
-  /// again. Not elsewhere, nor where there are narrow gaps: these would be closed again.
+  /// If finer pixels have found less than they took off, it is scanned with the usual ones again
+  /// where they have lost much. Not elsewhere, nor where there are narrow gaps: these would be
+  /// closed again.
   /// @param before uncovered_samples() before the mesh was taken off
   void recover(const std::vector<Vec3>& before, const std::vector<Sphere>& places) {
     if (!may_add_views() || has_narrow_gaps_) return;
     for (int round = 0; round < kRecoverRounds; ++round) {
-      const std::vector<Vec3> lost = lost_in(places, before, uncovered_samples());
+      const std::vector<Vec3> after = uncovered_samples();
+      if (after.size() <= before.size()) return;
+      const std::vector<Vec3> lost = lost_in(places, before, after);
       if (lost.empty()) return;
       ScanRecipe recipe = recipe_;
       for (const Vec3& point : lost)
