@@ -2,8 +2,11 @@
 
 LAS is read here; PCD by Open3D, STEP and IGES by Gmsh (Debian packages python3-open3d and python3-gmsh).
 """
+import contextlib
 import gzip
+import os
 import struct
+import sys
 
 import numpy as np
 
@@ -44,8 +47,26 @@ def write_points(path, points):
         out.write(np.ascontiguousarray(points, dtype='<f8').tobytes())
 
 
+@contextlib.contextmanager
+def output_to_errors():
+    """What libraries print, such as OpenCASCADE's readers, is no part of the table."""
+    sys.stdout.flush()
+    output = os.dup(1)
+    os.dup2(2, 1)
+    try:
+        yield
+    finally:
+        os.dup2(output, 1)
+        os.close(output)
+
+
 def mesh_of_cad(path):
     """The vertices and triangles of all faces, so small that they follow what is curved."""
+    with output_to_errors():
+        return triangulated(path)
+
+
+def triangulated(path):
     import gmsh
     gmsh.initialize()
     try:
