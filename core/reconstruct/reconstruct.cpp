@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <string>
@@ -21,6 +20,7 @@
 #include "core/plan/spacing.h"
 #include "core/plan/view_planner.h"
 #include "core/reconstruct/dense_places.h"
+#include "core/reconstruct/lost_points.h"
 #include "core/reconstruct/papered_holes.h"
 #include "core/reconstruct/resolution.h"
 #include "core/reconstruct/scan_recipe.h"
@@ -49,7 +49,6 @@ constexpr double kRescanMargin = 1.0;
 /// In h: so far around what a re-scan has lost it is scanned as before, in so many rounds.
 constexpr double kRecoverRadius = 2.0;
 constexpr int kRecoverRounds = 2;
-constexpr std::size_t kManyMore = 4;  ///< times as many points: what a re-scan has lost
 constexpr double kMinRecovered = 4;   ///< points that such a view must add
 constexpr double kMinNewPoints = 40;  ///< that a view must add: fewer are a few pixels
 /// Of the samples: less is left out by noise and in the pockets of real scans, where more views
@@ -120,29 +119,6 @@ void check_options(const Scene& scene, const ReconstructOptions& options) {
     throw InvalidArgument("reconstruct: threads must not be negative, got " +
                           std::to_string(options.threads));
   }
-}
-
-std::vector<Vec3> points_in(const Sphere& place, const std::vector<Vec3>& points) {
-  std::vector<Vec3> inside;
-  std::copy_if(points.begin(), points.end(), std::back_inserter(inside),
-               [&](const Vec3& p) { return place.contains(p); });
-  return inside;
-}
-
-/// The points that are uncovered after a change, and were not before, in the places in which many
-/// more are than were: in others lies the wall of a hole, of which any part is a gain.
-/// @param before, after in the same order of the same samples
-std::vector<Vec3> lost_in(const std::vector<Sphere>& places, const std::vector<Vec3>& before,
-                          const std::vector<Vec3>& after) {
-  std::vector<Vec3> lost;
-  for (const Sphere& place : places) {
-    const std::vector<Vec3> was = points_in(place, before);
-    const std::vector<Vec3> is = points_in(place, after);
-    if (is.size() <= kManyMore * was.size()) continue;
-    std::copy_if(is.begin(), is.end(), std::back_inserter(lost),
-                 [&](const Vec3& p) { return std::find(was.begin(), was.end(), p) == was.end(); });
-  }
-  return lost;
 }
 
 /// One automatic run. Every change to the mesh is a command of a Session, so the run can be
@@ -376,7 +352,7 @@ class Run {
     for (int round = 0; round < kRecoverRounds; ++round) {
       const std::vector<Vec3> after = uncovered_samples();
       if (after.size() <= before.size()) return;
-      const std::vector<Vec3> lost = lost_in(places, before, after);
+      const std::vector<Vec3> lost = lost_points(places, before, after);
       if (lost.empty()) return;
       ScanRecipe recipe = recipe_;
       for (const Vec3& point : lost)
