@@ -20,16 +20,22 @@ constexpr std::size_t kEndsByPart = 4;  ///< of a run: an end of it is as much
 constexpr std::uint32_t kApart = 3;     ///< places, between two bridges
 /// In h: sides of a crack so far apart have points between them.
 constexpr double kTellingGap = 1.6;
+/// In h: points as near as this lie around a place, or beside it if their mean is farther from it
+/// than the second figure.
+constexpr double kAround = 1.0;
+constexpr double kBeside = 0.5;
 /// Cosines: between the two faces of a bridge, and between them and the faces beside it.
 constexpr double kMinCosineInside = 0.3;
 constexpr double kMinCosineBeside = -0.3;
 
 class Bridger {
  public:
-  Bridger(TriangleMesh& mesh, const MeshPieces& pieces, const PointGrid& cloud, double pixel_size)
+  Bridger(TriangleMesh& mesh, const MeshPieces& pieces, const PointGrid& cloud, double pixel_size,
+          bool has_narrow_gaps)
       : mesh_(mesh),
         cloud_(cloud),
         h_(pixel_size),
+        has_narrow_gaps_(has_narrow_gaps),
         table_(pieces.table),
         loops_(pieces.loops),
         component_(pieces.component),
@@ -132,10 +138,23 @@ class Bridger {
 
   [[nodiscard]] Vec3 normal_of(const Triangle& t) const { return unit_normal(mesh_.positions, t); }
 
-  /// Whether the cloud, if there is one, has points half way between two vertices.
+  /// Whether the cloud, if there is one, has points half way between two vertices, and beside
+  /// narrow gaps not only on one side of that place, as at the edge of a wall.
   [[nodiscard]] bool is_shown(std::uint32_t a, std::uint32_t b) const {
     const Vec3 middle = 0.5 * (mesh_.positions[a] + mesh_.positions[b]);
-    return cloud_.empty() || is_supported(cloud_, middle, h_, kCloseSupport);
+    return cloud_.empty() || (is_supported(cloud_, middle, h_, kCloseSupport) &&
+                              !(has_narrow_gaps_ && is_beside_points(middle)));
+  }
+
+  [[nodiscard]] bool is_beside_points(const Vec3& place) const {
+    Vec3 sum{0.0};
+    std::size_t count = 0;
+    cloud_.for_each_near(place, kAround * h_, [&](const Vec3& offset) {
+      if (glm::length(offset) > kAround * h_) return;
+      sum += offset;
+      ++count;
+    });
+    return glm::length(sum) > kBeside * h_ * static_cast<double>(count);
   }
 
   /// Whether there is a surface between two loops, at half of the places at least where they are so
@@ -184,6 +203,7 @@ class Bridger {
   TriangleMesh& mesh_;
   const PointGrid& cloud_;
   double h_;
+  bool has_narrow_gaps_;
   const CornerTable& table_;
   const std::vector<BoundaryLoop>& loops_;
   const std::vector<std::uint32_t>& component_;
@@ -195,13 +215,13 @@ class Bridger {
 }  // namespace
 
 std::size_t bridge_loops(TriangleMesh& mesh, const MeshPieces& pieces, const PointGrid& cloud,
-                         double pixel_size) {
-  return Bridger(mesh, pieces, cloud, pixel_size).join_loops();
+                         double pixel_size, bool has_narrow_gaps) {
+  return Bridger(mesh, pieces, cloud, pixel_size, has_narrow_gaps).join_loops();
 }
 
 std::size_t bridge_runs(TriangleMesh& mesh, const MeshPieces& pieces, const PointGrid& cloud,
-                        double pixel_size) {
-  return Bridger(mesh, pieces, cloud, pixel_size).join_runs();
+                        double pixel_size, bool has_narrow_gaps) {
+  return Bridger(mesh, pieces, cloud, pixel_size, has_narrow_gaps).join_runs();
 }
 
 }  // namespace rangezip

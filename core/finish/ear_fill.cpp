@@ -6,9 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "core/finish/crossing_guard.h"
-#include "core/finish/face_part.h"
-#include "core/mesh/triangle_overlap.h"
+#include "core/finish/faces_around.h"
 
 namespace rangezip {
 namespace {
@@ -16,65 +14,13 @@ namespace {
 constexpr std::size_t kMaxEdges = 2000;
 constexpr double kLongestEdge = 8.0;  ///< in h
 constexpr double kTurnCost = 1.0;     ///< in h, for each unit of cosine
-constexpr double kMargin = 2.0;       ///< in h: faces as near to a loop are watched
-constexpr double kGuardCube = 1.5;    ///< in h
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-Box box_around(const TriangleMesh& mesh, const std::vector<std::uint32_t>& vertices,
-               double margin) {
-  Box box;
-  for (const std::uint32_t v : vertices)
-    box.add(mesh.positions[v]);
-  box.lower -= Vec3(margin);
-  box.upper += Vec3(margin);
-  return box;
-}
-
-/// The faces around some loops, with a guard over them and those that come.
-class Surroundings {
- public:
-  Surroundings(const TriangleMesh& mesh, const std::vector<Box>& boxes, double cube)
-      : part_(face_part(mesh, flags(mesh, boxes))), guard_(part_.mesh, cube) {}
-
-  /// @param face with vertices of the mesh
-  [[nodiscard]] bool can_take(const Triangle& face) const {
-    const Triangle local = local_of(face);
-    return !is_degenerate(part_.mesh, local) && !guard_.would_cross(local);
-  }
-
-  void take(const Triangle& face) {
-    part_.mesh.triangles.push_back(local_of(face));
-    guard_.add(static_cast<std::uint32_t>(part_.mesh.triangles.size() - 1));
-  }
-
- private:
-  static std::vector<std::uint8_t> flags(const TriangleMesh& mesh, const std::vector<Box>& boxes) {
-    std::vector<std::uint8_t> is_in(mesh.triangles.size(), 0);
-    for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
-      const Box box = box_of(mesh, mesh.triangles[f]);
-      is_in[f] = std::any_of(boxes.begin(), boxes.end(),
-                             [&](const Box& other) { return boxes_meet(box, other); })
-                     ? 1
-                     : 0;
-    }
-    return is_in;
-  }
-
-  [[nodiscard]] Triangle local_of(Triangle face) const {
-    for (std::uint32_t& v : face)
-      v = part_.index[v];
-    return face;
-  }
-
-  FacePart part_;
-  CrossingGuard guard_;
-};
-
 class EarClipper {
  public:
-  EarClipper(TriangleMesh& mesh, const CornerTable& table, Surroundings& around,
+  EarClipper(TriangleMesh& mesh, const CornerTable& table, FacesAround& around,
              std::set<Edge>& made, double h)
       : mesh_(mesh), table_(table), around_(around), made_(made), h_(h) {}
 
@@ -160,7 +106,7 @@ class EarClipper {
 
   TriangleMesh& mesh_;
   const CornerTable& table_;
-  Surroundings& around_;
+  FacesAround& around_;
   std::set<Edge>& made_;
   double h_;
   std::vector<std::uint32_t> vertices_;
@@ -178,11 +124,11 @@ EarFills fill_by_ears(TriangleMesh& mesh, const CornerTable& table,
   EarFills fills;
   if (loops.empty()) return fills;
   const std::size_t before = mesh.triangles.size();
-  std::vector<Box> boxes;
-  boxes.reserve(loops.size());
+  std::vector<std::vector<std::uint32_t>> vertices;
+  vertices.reserve(loops.size());
   for (const BoundaryLoop& loop : loops)
-    boxes.push_back(box_around(mesh, vertices_of(loop, table), kMargin * pixel_size));
-  Surroundings around(mesh, boxes, kGuardCube * pixel_size);
+    vertices.push_back(vertices_of(loop, table));
+  FacesAround around(mesh, vertices, pixel_size);
   std::set<Edge> made;
   EarClipper clipper(mesh, table, around, made, pixel_size);
   for (const BoundaryLoop& loop : loops) {

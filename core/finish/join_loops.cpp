@@ -26,8 +26,10 @@ constexpr double kMaxEdge = 4.0;
 constexpr double kTooNarrow = 1.2;
 /// In h: points in the middle of a wider gap are those of no sheet beside it.
 constexpr double kWide = 2.4;
-/// How near the middle of a strip's edge has a point; the same where the gap is wide.
+/// How near the middle of a strip's edge has a point; the same beside narrow gaps, of which 1.3
+/// spacings may be half; and where the gap is wide.
 constexpr SupportReach kSupport{.pixels = 0.6, .spacings = 1.3};
+constexpr SupportReach kSupportBesideGaps{.pixels = 0.6, .spacings = 1.0};
 constexpr SupportReach kWideSupport{.pixels = 0.9, .spacings = 1.3};
 /// Of the middles of long edges; the same where a fill would lie in the air.
 constexpr double kMinSupported = 0.7;
@@ -115,10 +117,11 @@ std::vector<Edge> inner_edges(const std::vector<Triangle>& triangles) {
 class Joiner {
  public:
   Joiner(const TriangleMesh& mesh, const MeshPieces& pieces, const PointGrid& cloud,
-         double pixel_size)
+         double pixel_size, bool has_narrow_gaps)
       : mesh_(mesh),
         cloud_(cloud),
         h_(pixel_size),
+        support_(has_narrow_gaps ? kSupportBesideGaps : kSupport),
         table_(pieces.table),
         loops_(pieces.loops),
         component_(pieces.component) {}
@@ -255,7 +258,7 @@ class Joiner {
     if (covered > (is_air ? kMaxCoveredInAir : kMaxCovered) * count) return false;
     const auto supported =
         std::count_if(strip.middles.begin(), strip.middles.end(), [&](const Vec3& middle) {
-          return is_supported(cloud_, middle, h_, is_wide ? kWideSupport : kSupport);
+          return is_supported(cloud_, middle, h_, is_wide ? kWideSupport : support_);
         });
     const double least = is_air && is_of_one && !has_points ? kMinSupportedInAir : kMinSupported;
     if (static_cast<double>(supported) < least * count) return false;
@@ -303,6 +306,7 @@ class Joiner {
   const TriangleMesh& mesh_;
   const PointGrid& cloud_;
   double h_;
+  SupportReach support_;
   const CornerTable& table_;
   const std::vector<BoundaryLoop>& loops_;
   const std::vector<std::uint32_t>& component_;
@@ -356,10 +360,10 @@ void append_parts(TriangleMesh& mesh, const std::vector<Strip>& strips, JoinedLo
 }  // namespace
 
 JoinedLoops join_loops(TriangleMesh& mesh, const MeshPieces& pieces, const PointGrid& cloud,
-                       double pixel_size) {
+                       double pixel_size, bool has_narrow_gaps) {
   JoinedLoops result{.is_hindered = std::vector<std::uint8_t>(mesh.positions.size(), 0)};
   std::vector<std::uint8_t> is_joined(pieces.loops.size(), 0);
-  std::vector<Strip> strips = Joiner(mesh, pieces, cloud, pixel_size).strips();
+  std::vector<Strip> strips = Joiner(mesh, pieces, cloud, pixel_size, has_narrow_gaps).strips();
   std::vector<Strip> hindered;
   for (int attempt = 0; attempt < kAttempts && !strips.empty(); ++attempt) {
     std::vector<Strip> others = take_one_for_each_loop(strips, is_joined);

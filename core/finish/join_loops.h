@@ -44,8 +44,10 @@ struct JoinedLoops {
 /// @param pieces of the mesh, as it is before
 /// @param cloud may be empty: then faces alone tell
 /// @param pixel_size h, model units; positive
+/// @param has_narrow_gaps the cloud shows gaps that scans reach only in part: where it is sparse a
+///     point counts within a spacing, not within 1.3, which may be half of such a gap
 /// @pre oriented, manifold, no self-intersections
 JoinedLoops join_loops(TriangleMesh& mesh, const MeshPieces& pieces, const PointGrid& cloud,
-                       double pixel_size);
+                       double pixel_size, bool has_narrow_gaps = false);
 
 }  // namespace rangezip

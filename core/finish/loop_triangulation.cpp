@@ -136,8 +136,13 @@ class Triangulator {
       }
       if (!(weight < best)) continue;
       if (avoids_air_ && leads_through_air(i, m, k)) weight.air += length;
-      if (weight < best) set(i, k, weight, normal, m);
+      if (weight < best && can_take(i, m, k)) set(i, k, weight, normal, m);
     }
+  }
+
+  [[nodiscard]] bool can_take(std::size_t i, std::size_t m, std::size_t k) const {
+    return !shape_.can_take ||
+           shape_.can_take({piece_.points[i], piece_.points[m], piece_.points[k]});
   }
 
   /// Each side is asked about once, of which there are far fewer than triangles.
@@ -344,6 +349,13 @@ std::vector<Triangle> triangulate_loop(const LoopShape& shape) {
   whole.edge_normals = shape.edge_normals;
   if (whole.points.size() <= kMaxDirectEdges) return triangulate_piece(shape, whole);
   return triangulate_divided(shape, whole);
+}
+
+double share_in_air(const LoopShape& shape, const std::vector<Triangle>& triangles) {
+  double area = 0.0;
+  for (const Triangle& t : triangles)
+    area += glm::length(area_vector(shape.points[t[0]], shape.points[t[1]], shape.points[t[2]]));
+  return shape.is_in_air && area > 0.0 ? area_in_air(shape, triangles) / area : 0.0;
 }
 
 }  // namespace rangezip

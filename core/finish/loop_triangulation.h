@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -24,6 +25,7 @@ struct LoopShape {
   double longest_edge = std::numeric_limits<double>::infinity();
   AirTest is_in_air;       ///< empty: nothing is known
   double long_side = 0.0;  ///< shorter sides, model units, do not lead through air
+  std::function<bool(const Triangle&)> can_take;  ///< of points; empty: any triangle may be made
 
   [[nodiscard]] bool is_too_long(std::uint32_t i, std::uint32_t k) const {
     return glm::length(points[k] - points[i]) > longest_edge;
@@ -48,9 +50,12 @@ struct LoopShape {
 /// the tube. Loops beyond 100 edges are first divided by short chords, rather not through air; if
 /// what that gives leads through air, three others are tried instead of the first chord, since the
 /// shortest one may part the two rims of a crack around a tube.
-/// Triangles hold indices of points and run along the loop's edges. Empty if the forbidden edges
-/// leave no triangulation, or for fewer than three points.
+/// Triangles hold indices of points and run along the loop's edges. Empty if the forbidden edges,
+/// and triangles that can not be taken, leave no triangulation, or for fewer than three points.
 /// Cost: O(n^3) up to 100 edges, O(n^2) to divide longer ones; up to four times that beside air.
 [[nodiscard]] std::vector<Triangle> triangulate_loop(const LoopShape& shape);
+
+/// How much of a triangulation leads through air, as a share of its area; 0 if nothing is known.
+[[nodiscard]] double share_in_air(const LoopShape& shape, const std::vector<Triangle>& triangles);
 
 }  // namespace rangezip

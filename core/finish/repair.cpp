@@ -245,7 +245,7 @@ class Repairer {
   template <class Bridge>
   void bridge(MeshPieces& pieces, const Bridge& bridge) {
     const std::size_t before = mesh_.triangles.size();
-    std::size_t bridges = bridge(mesh_, pieces, cloud_, options_.pixel_size);
+    std::size_t bridges = bridge(mesh_, pieces, cloud_, options_.pixel_size, options_.narrow_gaps);
     if (bridges == 0) return;
     std::vector<std::uint32_t> added(mesh_.triangles.size() - before);
     std::iota(added.begin(), added.end(), static_cast<std::uint32_t>(before));
@@ -271,7 +271,8 @@ class Repairer {
   /// Joins loops around gaps in the walls of holes. @return of vertices: their loops are not to be
   /// filled in this round; empty: none
   std::vector<std::uint8_t> join(MeshPieces& pieces, int round) {
-    JoinedLoops joined = join_loops(mesh_, pieces, cloud_, options_.pixel_size);
+    JoinedLoops joined =
+        join_loops(mesh_, pieces, cloud_, options_.pixel_size, options_.narrow_gaps);
     if (joined.pairs > 0) pieces = look_at_pieces();
     report_.joined_loops += joined.pairs;
     if (round >= kRoundsToJoin) return {};

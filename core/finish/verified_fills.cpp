@@ -7,10 +7,17 @@
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/finish/faces_around.h"
 #include "core/mesh/self_intersection.h"
 
 namespace rangezip {
 namespace {
+
+/// Of free fills: their cost grows with the third power of the edges, and with the length of sides.
+constexpr std::size_t kMostFreeEdges = 100;
+constexpr double kLongestFreeSide = 8.0;  ///< in lengths of new edges
+/// Of their area: what leads so far through air may close the mouth of a hole.
+constexpr double kMostFreeInAir = 0.1;
 
 /// The mesh with fills appended, and which fill each new face belongs to.
 struct Trial {
@@ -66,6 +73,25 @@ FillVerdict judge_fills(const TriangleMesh& mesh, const std::vector<HoleFill>& f
   return verdict;
 }
 
+/// The least sharp of the fills whose faces cross nothing that is there; empty if there is none.
+HoleFill free_fill(const TriangleMesh& mesh, const CornerTable& table, const BoundaryLoop& loop,
+                   const FacesAround& around, double longest_side, const CloudEvidence& evidence) {
+  if (loop.corners.size() > kMostFreeEdges) return {};
+  const std::vector<std::uint32_t> vertices = vertices_of(loop, table);
+  const auto in_mesh = [&](const Triangle& t) {
+    return Triangle{vertices[t[0]], vertices[t[1]], vertices[t[2]]};
+  };
+  LoopShape shape = shape_of(loop, table, mesh.positions, evidence);
+  shape.longest_edge = longest_side;
+  shape.can_take = [&](const Triangle& t) { return around.can_take(in_mesh(t)); };
+  const std::vector<Triangle> triangles = triangulate_loop(shape);
+  if (share_in_air(shape, triangles) > kMostFreeInAir) return {};
+  HoleFill fill;
+  for (const Triangle& t : triangles)
+    fill.triangles.push_back(in_mesh(t));
+  return fill;
+}
+
 /// Fills made for a request: one, or the pieces of a zipped loop.
 std::vector<HoleFill> fills_for(const TriangleMesh& mesh, const CornerTable& table,
                                 const FillRequest& request, FillShape shape,
@@ -90,6 +116,7 @@ class Filler {
     std::iota(all.begin(), all.end(), std::size_t{0});
     fill(all, std::nullopt);
     fill(std::exchange(result_.rejected, {}), FillShape::coarse);
+    fill_freely(std::exchange(result_.rejected, {}));
     const auto is_short = [&](std::size_t request) {
       return perimeter_of(requests_[request].loop, table_, mesh_.positions) <= options_.zipped_from;
     };
@@ -122,8 +149,51 @@ class Filler {
         fills.push_back(std::move(fill));
       request_of.resize(fills.size(), chosen[k]);
     }
-    const auto [fails, obstructed] = judge_fills(mesh_, fills);
+    const std::vector<std::uint32_t> obstructed = append(fills, request_of, chosen, instead);
     if (instead == FillShape::coarse) result_.obstructed = obstructed;
+  }
+
+  /// The same, with free fills.
+  void fill_freely(const std::vector<std::size_t>& chosen) {
+    if (chosen.empty()) return;
+    std::vector<std::vector<std::uint32_t>> loops;
+    loops.reserve(chosen.size());
+    for (const std::size_t request : chosen)
+      loops.push_back(vertices_of(requests_[request].loop, table_));
+    const double edge = usual_edge(loops);
+    const FacesAround around(mesh_, loops, edge);
+    std::vector<HoleFill> fills(chosen.size());
+    parallel_for(chosen.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k)
+        fills[k] = free_fill(mesh_, table_, requests_[chosen[k]].loop, around,
+                             kLongestFreeSide * edge, options_.evidence);
+    });
+    append(fills, chosen, chosen, FillShape::coarse);
+  }
+
+  /// The length of new edges, or the mean one of these loops.
+  [[nodiscard]] double usual_edge(const std::vector<std::vector<std::uint32_t>>& loops) const {
+    if (options_.edge_length > 0.0) return options_.edge_length;
+    double length = 0.0;
+    std::size_t count = 0;
+    for (const std::vector<std::uint32_t>& loop : loops) {
+      for (std::size_t i = 0; i < loop.size(); ++i)
+        length +=
+            glm::length(mesh_.positions[loop[(i + 1) % loop.size()]] - mesh_.positions[loop[i]]);
+      count += loop.size();
+    }
+    return length / static_cast<double>(count);
+  }
+
+  /// @return FillVerdict::obstructed
+  std::vector<std::uint32_t> append(const std::vector<HoleFill>& fills,
+                                    const std::vector<std::size_t>& request_of,
+                                    const std::vector<std::size_t>& chosen,
+                                    std::optional<FillShape> instead) {
+    const auto shape_of = [&](std::size_t request) {
+      return instead.value_or(requests_[request].shape);
+    };
+    auto [fails, obstructed] = judge_fills(mesh_, fills);
     const std::size_t base = mesh_.positions.size();
     std::vector<std::uint8_t> is_served(requests_.size(), 0);
     for (std::size_t i = 0; i < fills.size(); ++i) {
@@ -138,6 +208,7 @@ class Filler {
       if (is_served[request] == 0 && requests_[request].shape != FillShape::zipped)
         result_.rejected.push_back(request);
     }
+    return std::move(obstructed);
   }
 
   TriangleMesh& mesh_;

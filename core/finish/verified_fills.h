@@ -35,9 +35,10 @@ struct VerifiedFills {
 };
 
 /// Fills loops and keeps the fills whose faces neither cross the mesh, nor each other, nor have no
-/// area; where a refined fill fails a coarse one is tried, and of loops longer than zipped_from
-/// then the part where their sides are close. A mesh without self-intersections stays without. Of
-/// two fills that cross, the earlier one stays.
+/// area. Where a refined fill fails a coarse one is tried; then, of loops up to 100 edges, the
+/// least sharp of those coarse ones whose faces cross nothing (own), unless 10 % of it lead through
+/// air; and of loops longer than zipped_from at last the part where their sides are close. A mesh
+/// without self-intersections stays without. Of two fills that cross, the earlier one stays.
 /// @pre `table` is that of `mesh` (and no longer after).
 VerifiedFills fill_verified(TriangleMesh& mesh, const CornerTable& table,
                             const std::vector<FillRequest>& requests,
