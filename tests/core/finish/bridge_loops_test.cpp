@@ -87,6 +87,23 @@ TEST_CASE("two bodies side by side are not bridged where the cloud shows air bet
   CHECK(bridge_loops(mesh, pieces_of(mesh), PointGrid(points, region, 0.7), 1.0) == 0);
 }
 
+TEST_CASE("beside narrow gaps points on one side of a crack show no surface in it", "[finish]") {
+  constexpr double kGap = 1.4;
+  TriangleMesh mesh = two_sheets(12, kGap, 0.0, false);
+  const std::vector<Vec3> both = plane_points(12);
+  std::vector<Vec3> one_side = both;
+  std::erase_if(one_side, [](const Vec3& p) { return p.x > 6.0; });
+  const Box region{Vec3(-8.0), Vec3(24.0)};
+  const auto bridges = [&](const std::vector<Vec3>& points, bool has_narrow_gaps) {
+    TriangleMesh joined = mesh;
+    return bridge_loops(joined, pieces_of(joined), PointGrid(points, region, 0.7), 1.0,
+                        has_narrow_gaps);
+  };
+  CHECK(bridges(one_side, false) == 1);
+  CHECK(bridges(one_side, true) == 0);
+  CHECK(bridges(both, true) == 1);
+}
+
 TEST_CASE("two walls that face each other two pixels apart are not bridged", "[finish]") {
   // Each has a hole, opposite to the other; points are sparse, and half the gap is 1.35 spacings.
   constexpr double kGap = 2.0, kSpacing = 0.75;

@@ -182,5 +182,32 @@ TEST_CASE("holes opposite to each other in a thin plate are not joined through i
   REQUIRE(mesh == before);
 }
 
+TEST_CASE("holes opposite to each other in the walls of a narrow gap are not joined across it") {
+  // Twenty-five pairs; the gap is 2 h wide and the points 0.75 h apart, so that one in a wall is
+  // nearly as close to the middle of the gap as 1.3 spacings.
+  constexpr int kN = 40;
+  constexpr double kHalf = 0.5 * kN, kSpacing = 0.75;
+  const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
+  CAPTURE(seed);
+  std::mt19937_64 engine(seed);
+  TriangleMesh mesh = testing::cube(kN);
+  for (Vec3& p : mesh.positions)
+    p *= Vec3(kHalf, kHalf, 1.0);
+  testing::cut_where(mesh, [](const Vec3& p) {
+    const auto off = [](double t) { return std::abs(t - 7.0 * std::round(t / 7.0)); };
+    return std::max(std::abs(p.x), std::abs(p.y)) < 17.0 && std::hypot(off(p.x), off(p.y)) < 1.2;
+  });
+  for (Triangle& t : mesh.triangles)  // the air is inside
+    std::swap(t[1], t[2]);
+  std::vector<Vec3> points;
+  for (double i = 0.0; i < 2.0 * kN * kN / (kSpacing * kSpacing); i += 1.0) {
+    points.push_back({uniform(engine, -kHalf, kHalf), uniform(engine, -kHalf, kHalf),
+                      engine() % 2 == 0 ? -1.0 : 1.0});
+  }
+  REQUIRE(report_mesh(mesh).boundary_loops == 50);
+  const PointGrid cloud(points, {Vec3(-kHalf - 2.0), Vec3(kHalf + 2.0)}, 0.7);
+  CHECK(join_loops(mesh, pieces_of(mesh), cloud, 1.0, true).pairs == 0);
+}
+
 }  // namespace
 }  // namespace rangezip
