@@ -361,35 +361,38 @@ def perforated(width, side=160.0, step=0.25):
     return vertices[used], faces.reshape(-1, 3)
 
 
-def make(name):
-    """The shape of that name, or of `name value`."""
+def make(name, seed=None):
+    """The shape of that name, or of `name value`; its cloud is drawn by the seed, or by one of its own."""
+    def cloud(surface, own_seed, **options):
+        return drawn(surface, own_seed if seed is None else seed, **options)
+
     kind, _, value = name.partition(' ')
     size = float(value) if value else 0.0
     makers = {
-        'sphere': lambda: drawn(sphere(60), 1),
-        'torus': lambda: drawn(torus(50, 20), 2, genus=1),
-        'trefoil': lambda: drawn(trefoil(24, 9), 3, genus=1),
-        'bell': lambda: drawn(bell(), 23, noise=size / 100),
-        'bowl': lambda: drawn(revolved(*arc(60, np.pi / 2, np.pi, 100), closed=False), 4, noise=size / 100),
-        'pipe': lambda: drawn(revolved(np.full(100, 60.0), np.linspace(0, 60, 100), closed=False), 25, noise=size / 100),
-        'plate': lambda: drawn(box(100, 80, size), 5),
-        'shell': lambda: drawn(shell(50, size), 6),
-        'cube': lambda: drawn(box(80, 80, 80), 7),
-        'pocket': lambda: drawn(pocket(size), 8),
-        'spheres': lambda: drawn(two_spheres(size), 9),
-        'slabs': lambda: drawn(slabs(size), 15),
-        'bars': lambda: drawn(bars(size), 16),
-        'slot': lambda: drawn(slot(size), 17),
-        'cavity': lambda: drawn(cavity(size), 18),
-        'drilled': lambda: drawn(drilled(size), 19, genus=DRILLED),
-        'perforated': lambda: drawn(perforated(size), 20),
-        'lens': lambda: drawn(lens(60, size), 21),
-        'star': lambda: drawn(star(60, size), 22),
-        'noisy': lambda: drawn(torus(50, 20), 10, genus=1, noise=size / 100),
+        'sphere': lambda: cloud(sphere(60), 1),
+        'torus': lambda: cloud(torus(50, 20), 2, genus=1),
+        'trefoil': lambda: cloud(trefoil(24, 9), 3, genus=1),
+        'bell': lambda: cloud(bell(), 23, noise=size / 100),
+        'bowl': lambda: cloud(revolved(*arc(60, np.pi / 2, np.pi, 100), closed=False), 4, noise=size / 100),
+        'pipe': lambda: cloud(revolved(np.full(100, 60.0), np.linspace(0, 60, 100), closed=False), 25, noise=size / 100),
+        'plate': lambda: cloud(box(100, 80, size), 5),
+        'shell': lambda: cloud(shell(50, size), 6),
+        'cube': lambda: cloud(box(80, 80, 80), 7),
+        'pocket': lambda: cloud(pocket(size), 8),
+        'spheres': lambda: cloud(two_spheres(size), 9),
+        'slabs': lambda: cloud(slabs(size), 15),
+        'bars': lambda: cloud(bars(size), 16),
+        'slot': lambda: cloud(slot(size), 17),
+        'cavity': lambda: cloud(cavity(size), 18),
+        'drilled': lambda: cloud(drilled(size), 19, genus=DRILLED),
+        'perforated': lambda: cloud(perforated(size), 20),
+        'lens': lambda: cloud(lens(60, size), 21),
+        'star': lambda: cloud(star(60, size), 22),
+        'noisy': lambda: cloud(torus(50, 20), 10, genus=1, noise=size / 100),
         'contours': lambda: contours(torus(50, 20), 3.0, 0.5, 11, genus=1),
         'density': lambda: two_densities(box(100, 100, 100), 200_000, 12),
         'density-bumps': lambda: two_densities(bumpy_sphere(60, 6, 6), 200_000, 13),
-        'fingers': lambda: drawn(fingers_and_folds(), 14, genus=FINGER_WINDOWS, count=400_000),
+        'fingers': lambda: cloud(fingers_and_folds(), 14, genus=FINGER_WINDOWS, count=400_000),
     }
     return makers[kind]()
 

@@ -23,7 +23,7 @@ constexpr double kTellingGap = 1.6;
 /// In h: points as near as this lie around a place, or beside it if their mean is farther from it
 /// than the second figure.
 constexpr double kAround = 1.0;
-constexpr double kBeside = 0.5;
+constexpr double kBeside = 0.65;
 /// Cosines: between the two faces of a bridge, and between them and the faces beside it.
 constexpr double kMinCosineInside = 0.3;
 constexpr double kMinCosineBeside = -0.3;
