@@ -13,9 +13,9 @@ namespace rangezip {
 /// go across at the narrowest place, so that the two loops become one crack that can be filled.
 /// Loops of one component are never joined: that would make a handle. Nor does a bridge lead
 /// through the air: half way across it the cloud has points within 0.75 h, or one spacing, and
-/// where it has narrow gaps not only on one side: the mean of those within h is no farther than 0.65
-/// h; and at half of the places where the loops lie over 1.6 h apart. So two surfaces that face
-/// each other stay apart. Positions stay.
+/// where it has narrow gaps not only on one side: the mean of those within h is no farther than
+/// 0.65 h; and at half of the places where the loops lie over 1.6 h apart. So two surfaces that
+/// face each other stay apart. Positions stay.
 /// @param pieces of the mesh, as it is before
 /// @param cloud points of the cloud; may be empty: no evidence is asked for
 /// @param pixel_size h, model units; positive
