@@ -20,6 +20,7 @@
 #include "core/finish/fit_radii.h"
 #include "core/finish/fit_vertices.h"
 #include "core/finish/fit_window.h"
+#include "core/finish/hole_choice.h"
 #include "core/finish/local_sizes.h"
 #include "core/finish/orient_pieces.h"
 #include "core/finish/papered_faces.h"
@@ -389,7 +390,7 @@ FinishResult finish(TriangleMesh mesh, const SeenPoints& cloud, const FinishOpti
   remove_thin_handles(mesh, points, options, result.report, progress);
   zip_open_loops(mesh, points, options, result.report);
   if (options.max_hole_perimeter == 0.0)
-    result.report.papered_faces += drop_papered_faces(mesh, points, cloud, h);
+    result.report.papered_faces += drop_papered_faces(mesh, points, cloud, h, kSmallPerimeter * h);
   if (options.method == FinishMethod::full && !mesh.empty()) {
     if (options.gap == 0.0) tell_sides(points, mesh, h);  // contours are too far apart for that
     improve(mesh, points, options, result.report, progress);

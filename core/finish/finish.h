@@ -73,7 +73,7 @@ struct FinishResult {
 /// be real, then improves triangles without leaving the cloud and moves borders that stay to where
 /// it ends. The result is oriented, manifold and free of self-intersections.
 /// Faces that the points contradict go, before holes are closed and, with a max_hole_perimeter of
-/// 0, after (papered_faces.h).
+/// 0, after, unless they leave a hole so small that it would be closed (papered_faces.h).
 /// @param cloud the points that were scanned (and area samples of polygons), to which vertices are
 ///     fitted and which give evidence; may be empty: no fitting. Without votes no face is
 ///     contradicted.

@@ -13,8 +13,6 @@
 namespace rangezip {
 namespace {
 
-/// In h: loops up to this are a few pixels across; no point can tell what they are.
-constexpr double kSmallPerimeter = 12.0;
 /// In h: wider holes without points inside are closed flat; a smooth fill of them would bulge.
 constexpr double kSmoothPerimeter = 30.0;
 /// The cost of judging a loop grows with the square of its edges.

@@ -9,6 +9,9 @@
 
 namespace rangezip {
 
+/// In h: loops up to this are a few pixels across; no point can tell what they are.
+inline constexpr double kSmallPerimeter = 12.0;
+
 struct HoleChoiceOptions {
   double pixel_size = 0.0;            ///< h, model units
   double max_hole_perimeter = 0.0;    ///< in h, of holes to close although no points lie there
@@ -29,7 +32,7 @@ struct FillChoice {
 
 /// Whether a boundary loop is a gap in what was scanned, and then how to close it, or the border of
 /// an open surface, which stays (no value):
-/// - a small loop (up to 12 h) is closed;
+/// - a small loop (kSmallPerimeter) is closed;
 /// - the outline of a sheet stays: a fill would fold back over the sheet; unless the cloud shows
 ///   that it is another wall (core/finish/other_wall.h). A loop up to 60 h is no outline of what is
 ///   much larger, but beside narrow gaps;

@@ -99,23 +99,36 @@ std::vector<VoteSum> votes_around(const std::vector<Sight>& sights, const SeenPo
   return sums;
 }
 
-/// Clears the flags of faces that hang together with too few others.
-void keep_large(const TriangleMesh& mesh, double least_area,
-                std::vector<std::uint8_t>& is_papered) {
+/// Faces with a flag that hang together.
+struct FlaggedPiece {
+  double area = 0.0;
+  double rim = 0.0;  ///< length of the edges to faces without
+};
+
+/// Clears the flags of pieces that are not kept.
+template <class IsKept>
+void keep_pieces(const TriangleMesh& mesh, std::vector<std::uint8_t>& flags,
+                 const IsKept& is_kept) {
   std::vector<std::size_t> faces;
   std::vector<Triangle> triangles;
-  for (std::size_t f = 0; f < is_papered.size(); ++f) {
-    if (is_papered[f] == 0) continue;
+  for (std::size_t f = 0; f < flags.size(); ++f) {
+    if (flags[f] == 0) continue;
     faces.push_back(f);
     triangles.push_back(mesh.triangles[f]);
   }
-  const std::vector<std::uint32_t> piece =
-      components_of(CornerTable(triangles, mesh.positions.size()));
-  std::vector<double> areas(faces.size(), 0.0);  // of pieces
+  const CornerTable table(triangles, mesh.positions.size());
+  const std::vector<std::uint32_t> piece = components_of(table);
+  std::vector<FlaggedPiece> pieces(faces.size());
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    pieces[piece[i]].area += area_of_face(mesh.positions, triangles[i]);
+    for (auto c = static_cast<std::uint32_t>(3 * i); c < 3 * i + 3; ++c) {
+      if (table.across(c) != CornerTable::kNone) continue;
+      pieces[piece[i]].rim +=
+          glm::length(mesh.positions[table.head(c)] - mesh.positions[table.vertex(c)]);
+    }
+  }
   for (std::size_t i = 0; i < faces.size(); ++i)
-    areas[piece[i]] += area_of_face(mesh.positions, triangles[i]);
-  for (std::size_t i = 0; i < faces.size(); ++i)
-    is_papered[faces[i]] = areas[piece[i]] >= least_area ? 1 : 0;
+    flags[faces[i]] = is_kept(pieces[piece[i]]) ? 1 : 0;
 }
 
 bool look_out(const VoteSum& votes, const Vec3& toward) {
@@ -134,14 +147,16 @@ std::vector<std::uint8_t> papered_faces(const TriangleMesh& mesh, const PointGri
   std::vector<std::uint8_t> is_papered(mesh.triangles.size(), 0);
   for (std::size_t i = 0; i < sights.size(); ++i)
     is_papered[sights[i].face] = look_out(votes[i], sights[i].toward) ? 1 : 0;
-  keep_large(mesh, kLeastArea * pixel_size * pixel_size, is_papered);
+  const double least = kLeastArea * pixel_size * pixel_size;
+  keep_pieces(mesh, is_papered, [&](const FlaggedPiece& piece) { return piece.area >= least; });
   return is_papered;
 }
 
 std::size_t drop_papered_faces(TriangleMesh& mesh, const PointGrid& cloud, const SeenPoints& seen,
-                               double pixel_size) {
-  const std::vector<std::uint8_t> is_papered = papered_faces(mesh, cloud, seen, pixel_size);
+                               double pixel_size, double least_rim) {
+  std::vector<std::uint8_t> is_papered = papered_faces(mesh, cloud, seen, pixel_size);
   if (is_papered.empty()) return 0;
+  keep_pieces(mesh, is_papered, [&](const FlaggedPiece& piece) { return piece.rim > least_rim; });
   const std::size_t before = mesh.triangles.size();
   remove_triangles(mesh.triangles, is_papered);
   if (mesh.triangles.size() < before) clean_topology(mesh);

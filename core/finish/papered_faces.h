@@ -28,8 +28,9 @@ namespace rangezip {
                                                       const PointGrid& cloud,
                                                       const SeenPoints& seen, double pixel_size);
 
-/// Drops such faces. The mesh stays oriented and manifold. @return how many went
+/// Drops such faces, but for those that hang together with a rim up to `least_rim` (model units):
+/// a hole that would be closed again. The mesh stays oriented and manifold. @return how many went
 std::size_t drop_papered_faces(TriangleMesh& mesh, const PointGrid& cloud, const SeenPoints& seen,
-                               double pixel_size);
+                               double pixel_size, double least_rim = 0.0);
 
 }  // namespace rangezip
