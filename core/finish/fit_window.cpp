@@ -23,6 +23,7 @@ constexpr double kHeightPerNoise = 3.5;  // keeps all but a few points of the sh
 constexpr double kTolerance = 1.2;       // of the least error, for the sake of smooth normals
 constexpr std::size_t kAsked = 2000;
 constexpr std::size_t kMinAnswers = 20;
+constexpr std::size_t kOneInLeftOut = 500;  // of the answers, the largest
 constexpr std::size_t kPerBlock = 64;
 constexpr int kSteps = 2;  // onto the surface, before anything is measured
 
@@ -71,6 +72,24 @@ std::vector<Probe> make_probes(const TriangleMesh& mesh, const PointGrid& cloud,
   return probes;
 }
 
+/// The mean without the largest few, of which one alone may be more than all others: a place where
+/// a narrow fit and a wide one are on different sheets.
+double mean_of_most(const std::vector<double>& values) {
+  std::vector<double> sorted = values;
+  const std::size_t most = sorted.size() - 1 - sorted.size() / kOneInLeftOut;
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(most),
+                   sorted.end());
+  const double largest = sorted[most];
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (const double value : values) {
+    if (value > largest) continue;
+    sum += value;
+    ++count;
+  }
+  return sum / static_cast<double>(count);
+}
+
 /// Estimated mean square error of fits in a window; nothing if too few are found.
 std::optional<double> error_of(const std::vector<Probe>& probes, const PointGrid& cloud,
                                const SurfaceWindow& window, double noise2, double pixel_size) {
@@ -80,20 +99,19 @@ std::optional<double> error_of(const std::vector<Probe>& probes, const PointGrid
       fits[i] = measure_surface(cloud, probes[i].place, probes[i].normal, window);
   });
   const double covariance = fit_covariance(kRadii.front() * pixel_size, window.radius);
-  double sum = 0.0;
-  std::size_t count = 0;
+  std::vector<double> errors;
+  errors.reserve(fits.size());
   for (std::size_t i = 0; i < fits.size(); ++i) {
     if (!fits[i].fit.is_found) continue;
     const MeasuredFit& narrowest = probes[i].narrowest;
     const double apart = fits[i].fit.height - narrowest.fit.height;
     // What their difference has beyond its own variance is bias; to it comes the wider fit's
     // variance.
-    sum += apart * apart +
-           noise2 * (2.0 * covariance * fits[i].scatter.share2 - narrowest.scatter.share2);
-    ++count;
+    errors.push_back(apart * apart + noise2 * (2.0 * covariance * fits[i].scatter.share2 -
+                                               narrowest.scatter.share2));
   }
-  if (count < kMinAnswers) return std::nullopt;
-  return sum / static_cast<double>(count);
+  if (errors.size() < kMinAnswers) return std::nullopt;
+  return mean_of_most(errors);
 }
 
 }  // namespace

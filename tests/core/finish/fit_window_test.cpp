@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <random>
+#include <vector>
 
 #include "tests/core/finish/shapes.h"
 
@@ -31,6 +32,25 @@ TEST_CASE("the radius grows with the noise") {
   REQUIRE(little.window.radius > clean.window.radius);
   REQUIRE(much.window.radius >= little.window.radius);
   REQUIRE(much.window.height > 3.0 * much.noise);
+}
+
+TEST_CASE("one place where a narrow fit finds another sheet does not narrow all windows") {
+  const TriangleMesh mesh = testing::sphere(30);
+  const auto window_with = [&](bool has_patch) {
+    std::mt19937_64 engine(3);
+    std::vector<Vec3> points = testing::sphere_points(kH / 2.2, 0.03 * kH, engine);
+    const Vec3 place = mesh.positions[0];
+    if (has_patch) {  // narrower than the wide fits, and denser
+      std::erase_if(points, [&](const Vec3& p) { return glm::length(p - place) < 0.9 * kH; });
+      for (int i = 0; i < 100; ++i) {
+        Vec3 p = place + 0.5 * kH * testing::direction(engine);
+        points.push_back(p * ((1.0 + 0.8 * kH) / glm::length(p)));
+      }
+    }
+    const PointGrid cloud(points, {Vec3(-1.5), Vec3(1.5)}, 0.7 * kH);
+    return choose_fit_window(mesh, cloud, kH).window.radius;
+  };
+  REQUIRE(window_with(true) == window_with(false));
 }
 
 TEST_CASE("without points there is a window nevertheless") {
