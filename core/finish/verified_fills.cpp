@@ -160,7 +160,7 @@ class Filler {
     loops.reserve(chosen.size());
     for (const std::size_t request : chosen)
       loops.push_back(vertices_of(requests_[request].loop, table_));
-    const double edge = usual_edge(loops);
+    const double edge = usual_edge(chosen);
     const FacesAround around(mesh_, loops, edge);
     std::vector<HoleFill> fills(chosen.size());
     parallel_for(chosen.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -171,16 +171,15 @@ class Filler {
     append(fills, chosen, chosen, FillShape::coarse);
   }
 
-  /// The length of new edges, or the mean one of these loops.
-  [[nodiscard]] double usual_edge(const std::vector<std::vector<std::uint32_t>>& loops) const {
+  /// The length of new edges, or the mean one of the loops.
+  [[nodiscard]] double usual_edge(const std::vector<std::size_t>& chosen) const {
     if (options_.edge_length > 0.0) return options_.edge_length;
     double length = 0.0;
     std::size_t count = 0;
-    for (const std::vector<std::uint32_t>& loop : loops) {
-      for (std::size_t i = 0; i < loop.size(); ++i)
-        length +=
-            glm::length(mesh_.positions[loop[(i + 1) % loop.size()]] - mesh_.positions[loop[i]]);
-      count += loop.size();
+    for (const std::size_t request : chosen) {
+      const BoundaryLoop& loop = requests_[request].loop;
+      length += perimeter_of(loop, table_, mesh_.positions);
+      count += loop.corners.size();
     }
     return length / static_cast<double>(count);
   }
