@@ -19,9 +19,8 @@
 namespace rangezip {
 namespace {
 
-/// In h, of the circle through the corners of a face; of one that bends by more than kFlat.
-constexpr double kMaxRadius = 0.9;
-constexpr double kMaxBentRadius = 0.7;
+/// Of the greatest radius: that of faces which bend by more than kFlat.
+constexpr double kBentShare = 7.0 / 9.0;
 /// Cosines: between a face and the one that it goes on from; and the faces around a vertex.
 constexpr double kFlat = 0.7;
 constexpr double kMinTurn = -0.1;
@@ -106,9 +105,12 @@ struct Step {
 
 class Front {
  public:
-  Front(TriangleMesh& mesh, std::span<const Vec3> points, const AdvanceFrontOptions& options)
+  /// @param places of which the border is joined, besides the points
+  Front(TriangleMesh& mesh, std::span<const Vec3> points, std::span<const Vec3> places,
+        const AdvanceFrontOptions& options)
       : mesh_(mesh),
         h_(options.pixel_size),
+        max_radius_(options.max_radius * h_),
         edges_(3 * mesh.triangles.size()),
         guard_(mesh, kGuardCube * h_) {
     const std::vector<Vec3> apart = points_apart(points, options.apart * h_);
@@ -119,7 +121,7 @@ class Front {
     open_edges_.assign(mesh.positions.size(), 0);
     for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f)
       enter(f);
-    choose_tips(apart, old_vertices);
+    choose_tips(apart, places, old_vertices);
   }
 
   void run(const Progress& progress) {
@@ -147,22 +149,25 @@ class Front {
  private:
   [[nodiscard]] const Vec3& at(std::uint32_t v) const { return mesh_.positions[v]; }
 
-  /// The points, and the vertices of the border near them.
-  void choose_tips(const std::vector<Vec3>& points, std::uint32_t old_vertices) {
+  /// The points, and the vertices of the border near them and near the places.
+  void choose_tips(const std::vector<Vec3>& points, std::span<const Vec3> places,
+                   std::uint32_t old_vertices) {
     const double reach = kReach * h_;
-    CubeLists lists(cubes_of(points, reach), reach);
-    for (std::uint32_t i = 0; i < points.size(); ++i)
-      lists.add(points[i], i);
-    std::vector<Vec3> places = points;
+    std::vector<Vec3> wanted = points;
+    wanted.insert(wanted.end(), places.begin(), places.end());
+    CubeLists lists(cubes_of(wanted, reach), reach);
+    for (std::uint32_t i = 0; i < wanted.size(); ++i)
+      lists.add(wanted[i], i);
+    std::vector<Vec3> positions = points;
     std::vector<std::uint32_t> tips(points.size());
     std::iota(tips.begin(), tips.end(), old_vertices);
     for (std::uint32_t v = 0; v < old_vertices; ++v) {
-      if (open_edges_[v] == 0 || !has_near(lists, points, at(v), reach)) continue;
+      if (open_edges_[v] == 0 || !has_near(lists, wanted, at(v), reach)) continue;
       tips.push_back(v);
-      places.push_back(at(v));
+      positions.push_back(at(v));
     }
-    const double side = 2.0 * kMaxRadius * h_;
-    near_ = CubeLists(cubes_of(places, side), side);
+    const double side = 2.0 * max_radius_;
+    near_ = CubeLists(cubes_of(positions, side), side);
     is_tip_.assign(mesh_.positions.size(), 0);
     for (const std::uint32_t v : tips) {
       near_.add(at(v), v);
@@ -235,7 +240,7 @@ class Front {
     const double radius = length * glm::length(p - pa) * glm::length(p - pb) / (2.0 * twice_area);
     const Vec3 before = area_vector(at(face[0]), at(face[1]), at(face[2]));
     const double turn = cosine(before, area);
-    if (turn < kMinTurn || radius > (turn < kFlat ? kMaxBentRadius : kMaxRadius) * h_)
+    if (turn < kMinTurn || radius > (turn < kFlat ? kBentShare : 1.0) * max_radius_)
       return std::nullopt;
     if (!is_free(v) && cosine(area_around_[v], area) < kMinTurnAtVertex) return std::nullopt;
     const double cotangent = glm::dot(pa - p, pb - p) / twice_area;  // at v
@@ -251,6 +256,7 @@ class Front {
 
   TriangleMesh& mesh_;
   double h_;
+  double max_radius_;  ///< model units
   EdgeMap edges_;
   std::vector<Vec3> area_around_;     ///< of each vertex: sum over its faces; none: zero
   std::vector<int> open_edges_;       ///< of each vertex, without a face on one side
@@ -267,7 +273,14 @@ std::size_t advance_front(TriangleMesh& mesh, std::span<const Vec3> points,
                           const AdvanceFrontOptions& options, const Progress& progress) {
   const std::size_t before = mesh.triangles.size();
   if (before == 0 || points.empty()) return 0;
-  Front(mesh, points, options).run(progress);
+  Front(mesh, points, {}, options).run(progress);
+  return mesh.triangles.size() - before;
+}
+
+std::size_t join_fronts(TriangleMesh& mesh, std::span<const Vec3> places,
+                        const AdvanceFrontOptions& options, const Progress& progress) {
+  const std::size_t before = mesh.triangles.size();
+  Front(mesh, {}, places, options).run(progress);
   return mesh.triangles.size() - before;
 }
 

@@ -11,6 +11,7 @@ namespace rangezip {
 struct AdvanceFrontOptions {
   double pixel_size = 0.0;  ///< h, model units; positive
   double apart = 0.6;       ///< in h: of points nearer to each other one is taken
+  double max_radius = 0.9;  ///< in h, of the circle through the corners of a face
 };
 
 /// Grows the border of a mesh over points by an advancing front [Bernardini et al. 1999;
@@ -20,9 +21,9 @@ struct AdvanceFrontOptions {
 /// flattest comes first. So fronts that meet are joined, and what is left open has no points.
 ///
 /// No circle has a radius over 0.9 h, so no face leads over a gap of 2 h; with a bend of over 45
-/// degrees it has 0.7 h at most. Sharper bends than 95 degrees are not made, nor faces that look
-/// away from those around a vertex that they join, by over 107 degrees: around a rim they look
-/// aside. A face that would cross another gives way to the next best.
+/// degrees it has seven ninths of that at most. Sharper bends than 95 degrees are not made, nor
+/// faces that look away from those around a vertex that they join, by over 107 degrees: around a
+/// rim they look aside. A face that would cross another gives way to the next best.
 ///
 /// The mesh stays oriented, and its faces stay; the new ones come last. A vertex where fronts have
 /// met may be left with several fans (core/finish/clean_topology.h), and points that were not
@@ -33,5 +34,10 @@ struct AdvanceFrontOptions {
 /// @pre oriented, manifold
 std::size_t advance_front(TriangleMesh& mesh, std::span<const Vec3> points,
                           const AdvanceFrontOptions& options, const Progress& progress = {});
+
+/// Joins what fronts have left open: the same without points, from and to the vertices of the
+/// border within 2 h of `places`. @return faces that came
+std::size_t join_fronts(TriangleMesh& mesh, std::span<const Vec3> places,
+                        const AdvanceFrontOptions& options, const Progress& progress = {});
 
 }  // namespace rangezip

@@ -254,7 +254,7 @@ class Joiner {
     const bool has_points = a == Inside::points || b == Inside::points;
     if (has_points && !is_air) return false;
     strip.is_through_air = is_air;
-    if (!is_air && !is_of_one) return false;
+    if (!is_air && (!is_of_one || continued <= continuation_of_fills(strip))) return false;
     if (covered > (is_air ? kMaxCoveredInAir : kMaxCovered) * count) return false;
     const auto supported =
         std::count_if(strip.middles.begin(), strip.middles.end(), [&](const Vec3& middle) {

@@ -27,8 +27,9 @@ struct JoinedLoops {
 ///   would lie in the air, and neither loop is a nick of under 6 h in a smooth sheet; 65 % of the
 ///   middles of these edges do not lie on the mesh as it is, and 70 % have a point within 0.6 h (50
 ///   % and 30 % if one of the fills would lie in the air). The strip goes on from the faces beside
-///   it with a mean cosine of 0.3. Where it is over 2.4 h wide these points belong to no sheet
-///   beside it: then 0.9 h and -0.25 are enough;
+///   it with a mean cosine of 0.3, and better than the fills unless one of these would lie in the
+///   air. Where it is over 2.4 h wide these points belong to no sheet beside it: then 0.9 h and
+///   -0.25 are enough;
 /// - where no point can tell, the strip goes on from the faces beside it with a mean cosine of 0.5,
 ///   and better than the fills.
 /// Loops of two components are joined only if a fill would lie in the air, and 70 % have a point.

@@ -36,6 +36,9 @@ constexpr double kPart = 8.0;
 constexpr double kOffMesh = 0.42;
 constexpr double kOffMeshPerNoise = 2.0;
 constexpr double kApartAgain = 0.3;  ///< in h, of points where the front has stopped
+/// In h: circles without points where the front has stopped. At last, when what a wider one might
+/// lead across has its surface from rim to rim.
+constexpr double kVoidRadius = 1.15;
 constexpr int kSmoothRounds = 3;
 constexpr double kHardlyNoise = 0.08;  ///< in h: less is left in
 constexpr std::size_t kGrain = 256;
@@ -127,6 +130,7 @@ std::size_t regrow(TriangleMesh& mesh, std::span<const Vec3> points, const Point
   // Those that it has left out because the next were too far: all of them, where it stopped.
   missing = points_off(missing, part.mesh, off_mesh);
   count += advance_front(part.mesh, missing, {.pixel_size = h, .apart = kApartAgain}, progress);
+  count += join_fronts(part.mesh, near, {.pixel_size = h, .max_radius = kVoidRadius}, progress);
   put_back(std::move(part), mesh);
   clean_topology(mesh);
   return count;
