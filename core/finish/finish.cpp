@@ -35,6 +35,7 @@
 #include "core/finish/small_angles.h"
 #include "core/finish/thin_handles.h"
 #include "core/finish/unfold.h"
+#include "core/finish/unsupported_faces.h"
 #include "core/finish/untangle.h"
 #include "core/mesh/face_changes.h"
 #include "core/mesh/self_intersection.h"
@@ -385,6 +386,7 @@ FinishResult finish(TriangleMesh mesh, const SeenPoints& cloud, const FinishOpti
   clean_topology(mesh);
   result.report.turned_pieces = orient_pieces(mesh, h);
   if (result.report.turned_pieces > 0) close_joints(mesh, points, options, result.report, progress);
+  if (!cloud.votes.empty()) result.report.papered_faces += drop_faces_in_air(mesh, points, h);
   result.report.papered_faces += drop_papered_faces(mesh, points, cloud, h);
   grow_in_one(mesh, {cloud.points, points, options, progress}, result.report);
   remove_thin_handles(mesh, points, options, result.report, progress);

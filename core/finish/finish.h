@@ -40,7 +40,7 @@ struct FinishReport {
   std::size_t self_intersections_cut = 0;  ///< faces removed because they crossed others
   std::size_t untangled_pairs = 0;         ///< of faces that crossed after vertices had moved
   std::size_t bridged_loops = 0;
-  std::size_t papered_faces = 0;  ///< across the air, through which points look: they went
+  std::size_t papered_faces = 0;  ///< far from points, or that points look through: they went
   std::size_t joined_loops = 0;   ///< pairs inside of holes that lead through the object
   std::size_t cut_handles = 0;    ///< thinner than what scans resolve
   std::size_t filled_holes = 0;
@@ -72,8 +72,9 @@ struct FinishResult {
 /// self-intersections, bridges cracks between pieces, closes holes that the cloud does not show to
 /// be real, then improves triangles without leaving the cloud and moves borders that stay to where
 /// it ends. The result is oriented, manifold and free of self-intersections.
-/// Faces that the points contradict go, before holes are closed and, with a max_hole_perimeter of
-/// 0, after, unless they leave a hole so small that it would be closed (papered_faces.h).
+/// Faces that the points contradict, or that lie far from any (unsupported_faces.h), go, before
+/// holes are closed and, with a max_hole_perimeter of 0, after, unless they leave a hole so small
+/// that it would be closed (papered_faces.h).
 /// @param cloud the points that were scanned (and area samples of polygons), to which vertices are
 ///     fitted and which give evidence; may be empty: no fitting. Without votes no face is
 ///     contradicted.

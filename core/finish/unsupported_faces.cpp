@@ -14,6 +14,9 @@ namespace {
 /// In h: how far from a face the points next to it may be.
 constexpr double kFarthest = 6.0;
 constexpr std::size_t kNeighbors = 16;  ///< that tell the spacing, as in core/plan/spacing.h
+/// No point of a surface is as far from its points.
+constexpr SupportReach kBeyondDoubt{.pixels = 1.25, .spacings = 2.0};
+constexpr std::size_t kGrain = 256;
 constexpr double kPi = 3.14159265358979323846;
 
 /// The nearest point, if there is one within `radius`.
@@ -55,6 +58,19 @@ bool is_supported(const TriangleMesh& mesh, const Triangle& face, const PointGri
   });
 }
 
+/// Drops the faces that `is_dropped` names, asked in parallel. @return how many went
+template <class IsDropped>
+std::size_t drop_faces(TriangleMesh& mesh, const IsDropped& is_dropped) {
+  std::vector<std::uint8_t> goes(mesh.triangles.size(), 0);
+  parallel_for(goes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f)
+      goes[f] = is_dropped(mesh.triangles[f]) ? 1 : 0;
+  });
+  remove_triangles(mesh.triangles, goes);
+  if (mesh.triangles.size() < goes.size()) clean_topology(mesh);
+  return goes.size() - mesh.triangles.size();
+}
+
 }  // namespace
 
 bool is_supported(const PointGrid& cloud, const Vec3& place, double pixel_size,
@@ -75,22 +91,22 @@ std::optional<double> spacing_near(const PointGrid& cloud, const Vec3& place, do
 
 std::size_t drop_unsupported_faces(TriangleMesh& mesh, std::span<const Vec3> cloud,
                                    double pixel_size) {
-  constexpr std::size_t kGrain = 256;
   if (cloud.empty() || mesh.empty()) return 0;
   Box region = bounds_of(mesh);
   region.lower -= Vec3(kFarthest * pixel_size);
   region.upper += Vec3(kFarthest * pixel_size);
   const PointGrid points(cloud, region, kFaceSupport.pixels * pixel_size);
-  const std::size_t before = mesh.triangles.size();
-  std::vector<std::uint8_t> is_dropped(before, 0);
-  parallel_for(before, kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f)
-      is_dropped[f] = is_supported(mesh, mesh.triangles[f], points, pixel_size) ? 0 : 1;
-  });
-  remove_triangles(mesh.triangles, is_dropped);
-  clean_topology(mesh);
+  const std::size_t dropped = drop_faces(
+      mesh, [&](const Triangle& face) { return !is_supported(mesh, face, points, pixel_size); });
   remove_unused_vertices(mesh);
-  return before - mesh.triangles.size();
+  return dropped;
+}
+
+std::size_t drop_faces_in_air(TriangleMesh& mesh, const PointGrid& cloud, double pixel_size) {
+  if (cloud.empty()) return 0;
+  return drop_faces(mesh, [&](const Triangle& face) {
+    return !is_supported(cloud, centroid_of(mesh.positions, face), pixel_size, kBeyondDoubt);
+  });
 }
 
 }  // namespace rangezip

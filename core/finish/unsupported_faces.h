@@ -48,4 +48,12 @@ inline constexpr SupportReach kCloseSupport{.pixels = 0.75, .spacings = 1.0};
 std::size_t drop_unsupported_faces(TriangleMesh& mesh, std::span<const Vec3> cloud,
                                    double pixel_size);
 
+/// Drops the faces that lie in the air beyond doubt: the centroid has no point within 1.25 h and
+/// two spacings. A face or two that a scan made across a step of depth, or a stitch from border to
+/// border, are enough to join two bodies, and no handle tells it. Faces over a place that was not
+/// measured go, too: the hole is closed again by what tells holes. Mesh and cost as above.
+/// @param pixel_size h, model units; positive
+/// @return how many went
+std::size_t drop_faces_in_air(TriangleMesh& mesh, const PointGrid& cloud, double pixel_size);
+
 }  // namespace rangezip

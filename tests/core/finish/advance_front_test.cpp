@@ -162,11 +162,46 @@ TEST_CASE("a front does not cross what is in the way", "[finish]") {
   CHECK(self_intersections(mesh).empty());
 }
 
+TEST_CASE("fronts are joined over a place without points as wide as their circle, and only there",
+          "[finish]") {
+  // Two holes of the six triangles around a vertex: of the hexagon two corners are small triangles,
+  // the rest is a square whose circle has a radius of 1.
+  const Vec3 here(-5.0, 0.0, 0.0), there(5.0, 0.0, 0.0);
+  const auto sheet = [&] {
+    return sheet_without([&](const Vec3& p) {
+      return std::min(glm::length(p - here), glm::length(p - there)) < 0.5;
+    });
+  };
+  TriangleMesh narrow = sheet(), wide = sheet();
+  REQUIRE(area_of(narrow) == Approx(24.0 * 24.0 - 2.0 * 3.0));
+  const std::vector<Vec3> places(1, here);
+  join_fronts(narrow, places, {.pixel_size = kH, .max_radius = 0.9});
+  join_fronts(wide, places, {.pixel_size = kH, .max_radius = 1.05});
+  CHECK(area_of(narrow) == Approx(24.0 * 24.0 - 3.0 - 2.0));
+  CHECK(area_of(wide) == Approx(24.0 * 24.0 - 3.0));
+  CHECK(self_intersections(wide).empty());
+  CHECK(report_mesh(wide).is_manifold());
+  CHECK(report_mesh(wide).boundary_loops == 2);  // the sheet's and the other hole's
+}
+
+TEST_CASE("fronts are not joined across a gap of two and a half pixels", "[finish]") {
+  TriangleMesh mesh = sheet_without([](const Vec3& p) { return std::abs(p.x) < 0.9; });
+  for (Vec3& p : mesh.positions)
+    p.x *= 1.25;  // the gap was two squares wide
+  const TriangleMesh before = mesh;
+  std::vector<Vec3> along;
+  for (double y = -12.0; y <= 12.0; y += 1.0)
+    along.emplace_back(0.0, y, 0.0);
+  CHECK(join_fronts(mesh, along, {.pixel_size = kH, .max_radius = 1.15}) == 0);
+  CHECK(mesh == before);
+}
+
 TEST_CASE("a front without points or without a border does nothing", "[finish]") {
   TriangleMesh sheet = shapes::square_sheet(4), closed = testing::cube(4);
   CHECK(advance_front(sheet, {}, {.pixel_size = kH}) == 0);
   CHECK(advance_front(closed, std::vector<Vec3>(3, Vec3(1.5, 0.0, 0.0)), {.pixel_size = kH}) == 0);
   CHECK(closed.triangles == testing::cube(4).triangles);
+  CHECK(join_fronts(sheet, {}, {.pixel_size = kH}) == 0);
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 
 #include <catch2/catch.hpp>
 #include <cstddef>
+#include <random>
 
 #include "core/mesh/mesh_report.h"
+#include "tests/core/finish/shapes.h"
 #include "tests/support/shapes.h"
 
 namespace rangezip {
@@ -69,11 +71,47 @@ TEST_CASE("of a body that is sampled at random no face goes", "[finish]") {
   CHECK(drop_unsupported_faces(mesh, points, 1.0) <= mesh.triangles.size() / 200);
 }
 
+TEST_CASE("two faces that join two bodies through the air go, those on the bodies stay",
+          "[finish]") {
+  const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
+  CAPTURE(seed);
+  constexpr double kGap = 4.0;
+  std::mt19937_64 engine(seed);
+  TriangleMesh mesh;
+  std::vector<Vec3> points;
+  const auto at = [](std::uint32_t i, std::uint32_t k) { return i * 11 + k; };
+  for (const double z : {0.0, kGap}) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (std::uint32_t i = 0; i <= 10; ++i) {
+      for (std::uint32_t k = 0; k <= 10; ++k)
+        mesh.positions.emplace_back(i, k, z);
+    }
+    for (std::uint32_t i = 0; i < 10; ++i) {
+      for (std::uint32_t k = 0; k < 10; ++k) {
+        const std::uint32_t a = first + at(i, k), b = first + at(i + 1, k),
+                            c = first + at(i + 1, k + 1), d = first + at(i, k + 1);
+        mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {a, c, d}});
+      }
+    }
+    for (int i = 0; i < 800; ++i)  // 8 a square
+      points.push_back(
+          {testing::uniform(engine, 0.0, 10.0), testing::uniform(engine, 0.0, 10.0), z});
+  }
+  const std::uint32_t a = at(5, 0), b = at(6, 0), above = 121;
+  mesh.triangles.push_back({b, a, a + above});
+  mesh.triangles.push_back({b, a + above, b + above});
+  REQUIRE(report_mesh(mesh).components == 1);
+  const PointGrid cloud(points, {Vec3(-5.0), Vec3(15.0)}, 0.7);
+  CHECK(drop_faces_in_air(mesh, cloud, 1.0) == 2);
+  CHECK(report_mesh(mesh).components == 2);
+}
+
 TEST_CASE("without points, or faces, nothing is dropped", "[finish]") {
   TriangleMesh mesh = strip(2.0);
   CHECK(drop_unsupported_faces(mesh, {}, 1.0) == 0);
   TriangleMesh nothing;
   CHECK(drop_unsupported_faces(nothing, two_squares(2.0), 1.0) == 0);
+  CHECK(drop_faces_in_air(mesh, PointGrid({}, Box{}, 1.0), 1.0) == 0);
 }
 
 }  // namespace rangezip
