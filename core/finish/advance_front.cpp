@@ -31,6 +31,7 @@ constexpr double kBendCost = 1.0;
 /// In radii of 1 h, when faces of several edges compete: what is flat comes first.
 constexpr double kBendDelay = 2.0;
 constexpr double kGuardCube = 1.5;           ///< in h
+constexpr int kMostAround = 60;              ///< edges, of what is closed
 constexpr double kReach = 2.0;               ///< in h, of points: border vertices that are joined
 constexpr std::size_t kFacesPerLook = 4096;  ///< between looks at whether to stop
 constexpr std::uint32_t kNone = EdgeMap::kNone;
@@ -93,6 +94,11 @@ std::vector<Vec3> points_apart(std::span<const Vec3> points, double distance) {
   return apart;
 }
 
+enum class Topology : std::uint8_t {
+  changes,  ///< fronts are joined to whatever they meet
+  stays,    ///< to themselves
+};
+
 /// A face that might go on from a border edge.
 struct Step {
   double cost = 0.0;  ///< the lowest comes first
@@ -106,11 +112,13 @@ struct Step {
 class Front {
  public:
   /// @param places of which the border is joined, besides the points
+  /// @param topology whether a front meets others than itself
   Front(TriangleMesh& mesh, std::span<const Vec3> points, std::span<const Vec3> places,
-        const AdvanceFrontOptions& options)
+        const AdvanceFrontOptions& options, Topology topology)
       : mesh_(mesh),
         h_(options.pixel_size),
         max_radius_(options.max_radius * h_),
+        topology_(topology),
         edges_(3 * mesh.triangles.size()),
         guard_(mesh, kGuardCube * h_) {
     const std::vector<Vec3> apart = points_apart(points, options.apart * h_);
@@ -196,7 +204,29 @@ class Front {
   /// Whether a face beyond edge (a, b) to v repeats no directed edge, and v is not inside.
   [[nodiscard]] bool may_take(std::uint32_t a, std::uint32_t b, std::uint32_t v) const {
     return (is_free(v) || open_edges_[v] > 0) && edges_.find(a, v) == kNone &&
-           edges_.find(v, b) == kNone;
+           edges_.find(v, b) == kNone && (topology_ == Topology::changes || is_on_loop(a, b, v));
+  }
+
+  /// Whether a vertex is on the boundary loop of border edge (a, b), if that is short.
+  [[nodiscard]] bool is_on_loop(std::uint32_t a, std::uint32_t b, std::uint32_t v) const {
+    std::uint32_t from = a, to = b;
+    for (int i = 0; i < kMostAround; ++i) {
+      if (to == v) return true;
+      std::tie(from, to) = border_edge_after(from, to);
+      if (from == a && to == b) return false;
+    }
+    return false;
+  }
+
+  [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> border_edge_after(std::uint32_t a,
+                                                                          std::uint32_t b) const {
+    for (std::uint32_t face = edges_.find(a, b);;) {
+      const Triangle& t = mesh_.triangles[face];
+      const auto at_b = static_cast<std::size_t>(std::find(t.begin(), t.end(), b) - t.begin());
+      const std::uint32_t next = t[(at_b + 1) % 3];
+      face = edges_.find(next, b);
+      if (face == kNone) return {b, next};
+    }
   }
 
   void look_beyond(std::uint32_t face) {
@@ -257,6 +287,7 @@ class Front {
   TriangleMesh& mesh_;
   double h_;
   double max_radius_;  ///< model units
+  Topology topology_;
   EdgeMap edges_;
   std::vector<Vec3> area_around_;     ///< of each vertex: sum over its faces; none: zero
   std::vector<int> open_edges_;       ///< of each vertex, without a face on one side
@@ -273,14 +304,14 @@ std::size_t advance_front(TriangleMesh& mesh, std::span<const Vec3> points,
                           const AdvanceFrontOptions& options, const Progress& progress) {
   const std::size_t before = mesh.triangles.size();
   if (before == 0 || points.empty()) return 0;
-  Front(mesh, points, {}, options).run(progress);
+  Front(mesh, points, {}, options, Topology::changes).run(progress);
   return mesh.triangles.size() - before;
 }
 
-std::size_t join_fronts(TriangleMesh& mesh, std::span<const Vec3> places,
-                        const AdvanceFrontOptions& options, const Progress& progress) {
+std::size_t close_fronts(TriangleMesh& mesh, std::span<const Vec3> places,
+                         const AdvanceFrontOptions& options, const Progress& progress) {
   const std::size_t before = mesh.triangles.size();
-  Front(mesh, {}, places, options).run(progress);
+  Front(mesh, {}, places, options, Topology::stays).run(progress);
   return mesh.triangles.size() - before;
 }
 

@@ -35,9 +35,10 @@ struct AdvanceFrontOptions {
 std::size_t advance_front(TriangleMesh& mesh, std::span<const Vec3> points,
                           const AdvanceFrontOptions& options, const Progress& progress = {});
 
-/// Joins what fronts have left open: the same without points, from and to the vertices of the
-/// border within 2 h of `places`. @return faces that came
-std::size_t join_fronts(TriangleMesh& mesh, std::span<const Vec3> places,
-                        const AdvanceFrontOptions& options, const Progress& progress = {});
+/// Closes what fronts have left open all around: the same without points, from and to the vertices
+/// of the border within 2 h of `places`. Each face has its corners on one boundary loop, of 60
+/// edges at most, so that no handle comes and no two components are joined. @return faces that came
+std::size_t close_fronts(TriangleMesh& mesh, std::span<const Vec3> places,
+                         const AdvanceFrontOptions& options, const Progress& progress = {});
 
 }  // namespace rangezip

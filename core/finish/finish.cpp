@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -113,11 +114,18 @@ std::size_t count_components(const TriangleMesh& mesh) {
 
 /// What growing works with.
 struct Growth {
+  const TriangleMesh* clean;  ///< an earlier state in which nothing crosses; null: not known
   std::span<const Vec3> cloud;
   const PointGrid& points;  ///< the same
   const FinishOptions& options;
   const Progress& progress;
 };
+
+/// The pairs of faces that cross.
+Pairs crossings_of(const TriangleMesh& mesh, const TriangleMesh* clean) {
+  if (clean == nullptr) return self_intersections(mesh);
+  return self_intersections(mesh, find_face_changes(*clean, mesh).made);
+}
 
 /// Grows over what no scan has reached, and closes what is left open. Around what cannot be closed
 /// faces go: there it grows again, unless that leaves more open than there was: between noisy walls
@@ -125,10 +133,10 @@ struct Growth {
 /// @param in_the_way RegrowOptions::in_the_way
 void grow_and_close(TriangleMesh& mesh, const Growth& growth, double in_the_way,
                     FinishReport& report) {
-  const auto& [cloud, points, options, progress] = growth;
+  const auto& [given, cloud, points, options, progress] = growth;
   const RegrowOptions grown{.pixel_size = options.pixel_size, .in_the_way = in_the_way};
   if (options.regrow) report.regrown_faces += regrow(mesh, cloud, points, grown, progress);
-  repair(mesh, self_intersections(mesh), {}, points, options, report, progress);
+  repair(mesh, crossings_of(mesh, given), {}, points, options, report, progress);
   if (report.regrown_faces == 0) return;
   for (int round = 1; round < kRegrowRounds; ++round) {
     const TriangleMesh clean = mesh;
@@ -382,13 +390,17 @@ FinishResult finish(TriangleMesh mesh, const SeenPoints& cloud, const FinishOpti
   if (mesh.empty()) return result;
   progress.at("finish", 0.0);
   const double h = options.pixel_size;
+  std::optional<TriangleMesh> given;
+  if (options.is_clean) given = geometry_of(mesh);
   PointGrid points(cloud.points, region_of(mesh, kRegionMargin * h), kPointCell * h);
   clean_topology(mesh);
   result.report.turned_pieces = orient_pieces(mesh, h);
   if (result.report.turned_pieces > 0) close_joints(mesh, points, options, result.report, progress);
   if (!cloud.votes.empty()) result.report.papered_faces += drop_faces_in_air(mesh, points, h);
   result.report.papered_faces += drop_papered_faces(mesh, points, cloud, h);
-  grow_in_one(mesh, {cloud.points, points, options, progress}, result.report);
+  grow_in_one(mesh, {given ? &*given : nullptr, cloud.points, points, options, progress},
+              result.report);
+  given.reset();
   remove_thin_handles(mesh, points, options, result.report, progress);
   zip_open_loops(mesh, points, options, result.report);
   if (options.max_hole_perimeter == 0.0)

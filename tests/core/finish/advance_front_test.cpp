@@ -175,8 +175,8 @@ TEST_CASE("fronts are joined over a place without points as wide as their circle
   TriangleMesh narrow = sheet(), wide = sheet();
   REQUIRE(area_of(narrow) == Approx(24.0 * 24.0 - 2.0 * 3.0));
   const std::vector<Vec3> places(1, here);
-  join_fronts(narrow, places, {.pixel_size = kH, .max_radius = 0.9});
-  join_fronts(wide, places, {.pixel_size = kH, .max_radius = 1.05});
+  close_fronts(narrow, places, {.pixel_size = kH, .max_radius = 0.9});
+  close_fronts(wide, places, {.pixel_size = kH, .max_radius = 1.05});
   CHECK(area_of(narrow) == Approx(24.0 * 24.0 - 3.0 - 2.0));
   CHECK(area_of(wide) == Approx(24.0 * 24.0 - 3.0));
   CHECK(self_intersections(wide).empty());
@@ -192,7 +192,7 @@ TEST_CASE("fronts are not joined across a gap of two and a half pixels", "[finis
   std::vector<Vec3> along;
   for (double y = -12.0; y <= 12.0; y += 1.0)
     along.emplace_back(0.0, y, 0.0);
-  CHECK(join_fronts(mesh, along, {.pixel_size = kH, .max_radius = 1.15}) == 0);
+  CHECK(close_fronts(mesh, along, {.pixel_size = kH, .max_radius = 1.15}) == 0);
   CHECK(mesh == before);
 }
 
@@ -201,7 +201,7 @@ TEST_CASE("a front without points or without a border does nothing", "[finish]")
   CHECK(advance_front(sheet, {}, {.pixel_size = kH}) == 0);
   CHECK(advance_front(closed, std::vector<Vec3>(3, Vec3(1.5, 0.0, 0.0)), {.pixel_size = kH}) == 0);
   CHECK(closed.triangles == testing::cube(4).triangles);
-  CHECK(join_fronts(sheet, {}, {.pixel_size = kH}) == 0);
+  CHECK(close_fronts(sheet, {}, {.pixel_size = kH}) == 0);
 }
 
 }  // namespace

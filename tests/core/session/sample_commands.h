@@ -80,6 +80,7 @@ inline std::vector<Command> full_commands(shapes::Random& random) {
   finish.options.regrow = true;
   finish.options.follow_density = true;
   finish.options.min_component = static_cast<std::size_t>(count());
+  finish.options.is_clean = true;
   finish.vote = VoteOptions{.pixel_size = share(), .directions = count()};
 
   return {scan,
