@@ -36,9 +36,12 @@ constexpr double kPart = 8.0;
 constexpr double kOffMesh = 0.42;
 constexpr double kOffMeshPerNoise = 2.0;
 constexpr double kApartAgain = 0.3;  ///< in h, of points where the front has stopped
-/// In h: circles without points where the front has stopped. At last, when what a wider one might
-/// lead across has its surface from rim to rim.
+/// In h: points with a larger spacing leave circles of the front's radius empty by chance.
+constexpr double kSparse = 0.6;
+/// In h: of circles without points where the front has stopped. At last, when what a wider one
+/// might lead across has its surface from rim to rim.
 constexpr double kVoidRadius = 1.15;
+constexpr std::size_t kSpacingPlaces = 200;  ///< that tell whether points are sparse
 constexpr int kSmoothRounds = 3;
 constexpr double kHardlyNoise = 0.08;  ///< in h: less is left in
 constexpr std::size_t kGrain = 256;
@@ -102,6 +105,17 @@ void smooth(std::vector<Vec3>& points, const PointGrid& cloud, double h) {
   });
 }
 
+/// By the median of the spacing at some of the places.
+bool are_sparse(const std::vector<Vec3>& places, const PointGrid& cloud, double h) {
+  std::vector<double> spacings;
+  const std::size_t step = 1 + places.size() / kSpacingPlaces;
+  for (std::size_t i = 0; i < places.size(); i += step)
+    spacings.push_back(spacing_near(cloud, places[i], h).value_or(0.0));
+  const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
+  std::nth_element(spacings.begin(), middle, spacings.end());
+  return *middle > kSparse * h;
+}
+
 }  // namespace
 
 std::size_t regrow(TriangleMesh& mesh, std::span<const Vec3> points, const PointGrid& grid,
@@ -130,7 +144,8 @@ std::size_t regrow(TriangleMesh& mesh, std::span<const Vec3> points, const Point
   // Those that it has left out because the next were too far: all of them, where it stopped.
   missing = points_off(missing, part.mesh, off_mesh);
   count += advance_front(part.mesh, missing, {.pixel_size = h, .apart = kApartAgain}, progress);
-  count += close_fronts(part.mesh, near, {.pixel_size = h, .max_radius = kVoidRadius}, progress);
+  if (are_sparse(left_out, grid, h))
+    count += close_fronts(part.mesh, near, {.pixel_size = h, .max_radius = kVoidRadius}, progress);
   put_back(std::move(part), mesh);
   clean_topology(mesh);
   return count;
