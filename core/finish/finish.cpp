@@ -115,7 +115,7 @@ std::size_t count_components(const TriangleMesh& mesh) {
 /// What growing works with.
 struct Growth {
   const TriangleMesh* clean;  ///< an earlier state in which nothing crosses; null: not known
-  std::span<const Vec3> cloud;
+  const SeenPoints& cloud;
   const PointGrid& points;  ///< the same
   const FinishOptions& options;
   const Progress& progress;
@@ -398,8 +398,7 @@ FinishResult finish(TriangleMesh mesh, const SeenPoints& cloud, const FinishOpti
   if (result.report.turned_pieces > 0) close_joints(mesh, points, options, result.report, progress);
   if (!cloud.votes.empty()) result.report.papered_faces += drop_faces_in_air(mesh, points, h);
   result.report.papered_faces += drop_papered_faces(mesh, points, cloud, h);
-  grow_in_one(mesh, {given ? &*given : nullptr, cloud.points, points, options, progress},
-              result.report);
+  grow_in_one(mesh, {given ? &*given : nullptr, cloud, points, options, progress}, result.report);
   given.reset();
   remove_thin_handles(mesh, points, options, result.report, progress);
   zip_open_loops(mesh, points, options, result.report);

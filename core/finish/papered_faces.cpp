@@ -3,26 +3,22 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <unordered_map>
 
-#include "core/base/cubes.h"
 #include "core/base/parallel.h"
 #include "core/finish/clean_topology.h"
 #include "core/finish/components.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/places_near.h"
 #include "core/finish/unsupported_faces.h"
+#include "core/finish/votes_near.h"
 
 namespace rangezip {
 namespace {
 
 /// In h: the first step behind a face. What is met there may be its own surface.
 constexpr double kFirstStep = 1.0;
-constexpr double kStep = 0.5;    ///< in h
-constexpr double kReach = 0.75;  ///< in h: points so near to a step are met
-constexpr double kLooksOut = 0.25;
-constexpr double kFullVote = 127.0;
-constexpr double kLeastVote = 0.05 * kFullVote;
+constexpr double kStep = 0.5;       ///< in h
+constexpr double kReach = 0.75;     ///< in h: points so near to a step are met
 constexpr double kLeastArea = 3.0;  ///< in square h
 constexpr std::size_t kGrain = 256;
 
@@ -31,11 +27,6 @@ struct Sight {
   std::size_t face = 0;
   Vec3 toward{0.0};  ///< unit normal of the face
   Vec3 place{0.0};
-};
-
-struct VoteSum {
-  Vec3 sum{0.0};
-  std::size_t count = 0;
 };
 
 /// The first place straight behind a face that has points around it, but for its own surface.
@@ -71,34 +62,6 @@ std::vector<Sight> sights_of(const TriangleMesh& mesh, const PointGrid& cloud, d
   return sights;
 }
 
-/// For each place the votes of the points within `radius`.
-std::vector<VoteSum> votes_around(const std::vector<Sight>& sights, const SeenPoints& seen,
-                                  double radius) {
-  std::unordered_map<Cube, std::vector<std::size_t>, CubeHash> sights_in;  // and around a cube
-  for (std::size_t i = 0; i < sights.size(); ++i) {
-    const Cube center = cube_of(sights[i].place, radius);
-    for (int k = 0; k < 27; ++k) {
-      const Cube cube{center[0] + k % 3 - 1, center[1] + k / 3 % 3 - 1, center[2] + k / 9 - 1};
-      sights_in[cube].push_back(i);
-    }
-  }
-  const auto is_near = flags_of(seen.votes.size(), [&](std::size_t p) {
-    return sights_in.contains(cube_of(seen.points[p], radius));
-  });
-  std::vector<VoteSum> sums(sights.size());
-  for (std::size_t p = 0; p < is_near.size(); ++p) {
-    if (is_near[p] == 0) continue;
-    const Vec3& point = seen.points[p];
-    const auto& [x, y, z] = seen.votes[p];
-    for (const std::size_t i : sights_in.at(cube_of(point, radius))) {
-      if (glm::length(sights[i].place - point) > radius) continue;
-      sums[i].sum += Vec3(x, y, z);
-      ++sums[i].count;
-    }
-  }
-  return sums;
-}
-
 /// Faces with a flag that hang together.
 struct FlaggedPiece {
   double area = 0.0;
@@ -131,22 +94,20 @@ void keep_pieces(const TriangleMesh& mesh, std::vector<std::uint8_t>& flags,
     flags[faces[i]] = is_kept(pieces[piece[i]]) ? 1 : 0;
 }
 
-bool look_out(const VoteSum& votes, const Vec3& toward) {
-  const double length = glm::length(votes.sum);
-  return length > kLeastVote * static_cast<double>(votes.count) &&
-         glm::dot(votes.sum, toward) > kLooksOut * length;
-}
-
 }  // namespace
 
 std::vector<std::uint8_t> papered_faces(const TriangleMesh& mesh, const PointGrid& cloud,
                                         const SeenPoints& seen, double pixel_size) {
   if (seen.votes.empty() || mesh.empty()) return {};
   const std::vector<Sight> sights = sights_of(mesh, cloud, pixel_size);
-  const std::vector<VoteSum> votes = votes_around(sights, seen, kReach * pixel_size);
+  std::vector<Vec3> places;
+  places.reserve(sights.size());
+  for (const Sight& sight : sights)
+    places.push_back(sight.place);
+  const std::vector<VotesNear> votes = votes_near(places, seen, kReach * pixel_size);
   std::vector<std::uint8_t> is_papered(mesh.triangles.size(), 0);
   for (std::size_t i = 0; i < sights.size(); ++i)
-    is_papered[sights[i].face] = look_out(votes[i], sights[i].toward) ? 1 : 0;
+    is_papered[sights[i].face] = votes[i].look_toward(sights[i].toward) ? 1 : 0;
   const double least = kLeastArea * pixel_size * pixel_size;
   keep_pieces(mesh, is_papered, [&](const FlaggedPiece& piece) { return piece.area >= least; });
   return is_papered;

@@ -16,6 +16,7 @@
 #include "core/finish/local_plane.h"
 #include "core/finish/places_near.h"
 #include "core/finish/unsupported_faces.h"
+#include "core/finish/votes_near.h"
 #include "core/mesh/coverage.h"
 
 namespace rangezip {
@@ -32,6 +33,7 @@ constexpr double kMostNoise = 0.3;  ///< in h: more would bend the front
 constexpr double kDoubted = 3.0;
 constexpr double kPlace = 4.0;
 constexpr double kPart = 8.0;
+constexpr double kOwnPoints = 0.75;  ///< in h: those of a face, also beside a gap of 2 h
 /// In h: points farther from the mesh than this are not in it.
 constexpr double kOffMesh = 0.42;
 constexpr double kOffMeshPerNoise = 2.0;
@@ -45,7 +47,7 @@ constexpr std::size_t kSpacingPlaces = 200;  ///< that tell whether points are s
 constexpr int kSmoothRounds = 3;
 constexpr double kHardlyNoise = 0.08;  ///< in h: less is left in
 constexpr std::size_t kGrain = 256;
-constexpr std::size_t kMinPiece = 12;  ///< faces; less is a shred in the air
+constexpr std::size_t kMinPiece = 100;  ///< faces; less may be seen through a wall, from behind
 
 Box region_of(const TriangleMesh& mesh, double h) {
   Box region = bounds_of(mesh);
@@ -73,7 +75,29 @@ void drop_shreds(TriangleMesh& mesh) {
   remove_triangles(mesh.triangles, goes);
 }
 
-/// Drops faces that lead through the air, and those that hide the way to points.
+/// Drops the faces near points that are left out whose own points look the other way.
+void drop_inside_out(TriangleMesh& mesh, const SeenPoints& seen, const PointGrid& left_out,
+                     double h) {
+  if (seen.votes.empty()) return;
+  std::vector<std::uint32_t> faces;
+  std::vector<Vec3> places;
+  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+    const Vec3 center = centroid_of(mesh.positions, mesh.triangles[f]);
+    if (!left_out.has_point_within(center, kDoubted * h)) continue;
+    faces.push_back(f);
+    places.push_back(center);
+  }
+  const std::vector<VotesNear> votes = votes_near(places, seen, kOwnPoints * h);
+  std::vector<std::uint8_t> goes(mesh.triangles.size(), 0);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const Vec3 back = -unit_normal(mesh.positions, mesh.triangles[faces[i]]);
+    goes[faces[i]] = votes[i].look_toward(back) ? 1 : 0;
+  }
+  remove_triangles(mesh.triangles, goes);
+}
+
+/// Drops faces that lead through the air, those that hide the way to points, and what is left of
+/// them in small pieces.
 /// @param off points near those that the mesh does not show
 void clear_way(TriangleMesh& mesh, std::span<const Vec3> off, const PointGrid& left_out,
                const PointGrid& cloud, const RegrowOptions& options) {
@@ -118,9 +142,10 @@ bool are_sparse(const std::vector<Vec3>& places, const PointGrid& cloud, double 
 
 }  // namespace
 
-std::size_t regrow(TriangleMesh& mesh, std::span<const Vec3> points, const PointGrid& grid,
+std::size_t regrow(TriangleMesh& mesh, const SeenPoints& seen, const PointGrid& grid,
                    const RegrowOptions& options, const Progress& progress) {
   const double h = options.pixel_size;
+  const std::span<const Vec3> points = seen.points;
   if (mesh.empty()) return 0;
   const double noise = noise_of(points, grid, h);
   if (noise > kMostNoise * h) return 0;
@@ -136,6 +161,7 @@ std::size_t regrow(TriangleMesh& mesh, std::span<const Vec3> points, const Point
   std::vector<Vec3> near = points_near(points, places, kPlace * h);
   if (is_noisy) smooth(near, grid, h);
   const double off_mesh = std::max(kOffMesh * h, kOffMeshPerNoise * noise);
+  drop_inside_out(mesh, seen, places, h);
   clear_way(mesh, points_off(near, mesh, off_mesh), places, grid, options);
   FacePart part = part_near(mesh, places, kPart * h);
   if (part.mesh.empty()) return 0;  // they are of another body, inside of this one

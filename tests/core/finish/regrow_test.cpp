@@ -1,8 +1,10 @@
 #include "core/finish/regrow.h"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdint>
 #include <random>
 #include <vector>
 
@@ -71,7 +73,7 @@ TEST_CASE("regrow covers what scans left out of two sheets two pixels apart, and
   append(mesh, frame(gap, 0.35 * kSide, true));
   REQUIRE(left_out_points(points, mesh, kH).size() > points.size() / 4);
 
-  REQUIRE(regrow(mesh, points, grid_of(points), {.pixel_size = kH}) > 0);
+  REQUIRE(regrow(mesh, {points}, grid_of(points), {.pixel_size = kH}) > 0);
 
   require_clean(mesh);
   CHECK(left_out_points(points, mesh, kH).empty());
@@ -81,6 +83,34 @@ TEST_CASE("regrow covers what scans left out of two sheets two pixels apart, and
     return std::all_of(t.begin(), t.end(),
                        [&](std::uint32_t v) { return std::abs(height(v) - z) < 1e-3; });
   }));
+}
+
+TEST_CASE("nothing grows inside out from a piece whose points are seen from behind it",
+          "[finish]") {
+  const bool has_votes = GENERATE(true, false);
+  const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
+  CAPTURE(has_votes, seed);
+  std::mt19937_64 engine(seed);
+  std::vector<Vec3> points;
+  add_sheet_points(points, 0.0, engine);
+  TriangleMesh mesh = frame(0.0, 0.35 * kSide, false);
+  TriangleMesh piece = shapes::square_sheet(10);
+  for (Triangle& t : piece.triangles)
+    std::swap(t[1], t[2]);
+  append(mesh, piece);
+  const std::vector<std::array<std::int8_t, 3>> votes(points.size(), {0, 0, 100});
+  SeenPoints seen{.points = points};
+  if (has_votes) seen.votes = votes;
+
+  REQUIRE(regrow(mesh, seen, grid_of(points), {.pixel_size = kH}) > 0);
+
+  require_clean(mesh);
+  CHECK(left_out_points(points, mesh, kH).empty());
+  const bool all_look_up =
+      std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
+        return area_vector(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]).z > 0;
+      });
+  CHECK(all_look_up == has_votes);  // nothing else tells
 }
 
 TEST_CASE("regrow over noise of a fifth of a pixel makes faces that are flatter than the noise",
@@ -98,7 +128,7 @@ TEST_CASE("regrow over noise of a fifth of a pixel makes faces that are flatter 
   constexpr double kHole = 0.35 * kSide;
   TriangleMesh mesh = frame(0.0, kHole, false);
   const std::size_t before = mesh.positions.size();
-  REQUIRE(regrow(mesh, points, grid_of(points), {.pixel_size = kH}) > 100);
+  REQUIRE(regrow(mesh, {points}, grid_of(points), {.pixel_size = kH}) > 100);
   require_clean(mesh);
   double squares = 0.0;
   for (std::size_t v = before; v < mesh.positions.size(); ++v)
@@ -143,7 +173,7 @@ TEST_CASE("regrow takes a membrane out of the middle of a gap, with what joins i
   REQUIRE(report_mesh(mesh).is_manifold());
   REQUIRE(report_mesh(mesh).components == 2);
 
-  REQUIRE(regrow(mesh, points, grid_of(points), {.pixel_size = kH}) > 0);
+  REQUIRE(regrow(mesh, {points}, grid_of(points), {.pixel_size = kH}) > 0);
   remove_unused_vertices(mesh);
 
   require_clean(mesh);
@@ -163,7 +193,7 @@ TEST_CASE("regrow leaves a hole that holds no points, and what lies far from poi
   std::erase_if(points, [](const Vec3& p) { return std::max(std::abs(p.x), std::abs(p.y)) < 6.0; });
   TriangleMesh mesh = frame(0.0, 6.0, false);
   const TriangleMesh before = mesh;
-  REQUIRE(regrow(mesh, points, grid_of(points), {.pixel_size = kH}) == 0);
+  REQUIRE(regrow(mesh, {points}, grid_of(points), {.pixel_size = kH}) == 0);
   CHECK(mesh.triangles == before.triangles);
   CHECK(mesh.positions == before.positions);
 }
@@ -182,7 +212,8 @@ TEST_CASE("regrow makes faces again that are in the way of points, as far around
   for (const Vec3& p : mesh.positions)
     rim = std::min(rim, std::max(std::abs(p.x), std::abs(p.y)));
 
-  REQUIRE(regrow(mesh, points, grid_of(points), {.pixel_size = kH, .in_the_way = in_the_way}) > 0);
+  REQUIRE(regrow(mesh, {points}, grid_of(points), {.pixel_size = kH, .in_the_way = in_the_way}) >
+          0);
 
   require_clean(mesh);
   constexpr double kOffMesh = 0.42, kSpacing = 0.8;  // what the mesh shows; points next to a place
@@ -223,7 +254,7 @@ TEST_CASE(
     p.z = std::max(std::abs(p.x), std::abs(p.y)) < kHalf ? kH : 0.0;
   REQUIRE(left_out_points(points, mesh, 0.7 * kH).size() > 40);
   const TriangleMesh before = mesh;
-  REQUIRE(regrow(mesh, points, grid_of(points), {.pixel_size = kH}) == 0);
+  REQUIRE(regrow(mesh, {points}, grid_of(points), {.pixel_size = kH}) == 0);
   CHECK(mesh.triangles == before.triangles);
 }
 
@@ -236,7 +267,7 @@ TEST_CASE("regrow leaves points alone that lie far from any face", "[finish]") {
   TriangleMesh mesh = frame(0.0, 2.0, false);
   append(mesh, frame(0.8 * kSide, 2.0, true));
   const TriangleMesh before = mesh;
-  REQUIRE(regrow(mesh, points, grid_of(points), {.pixel_size = kH}) == 0);
+  REQUIRE(regrow(mesh, {points}, grid_of(points), {.pixel_size = kH}) == 0);
   CHECK(mesh.triangles == before.triangles);
 }
 
