@@ -47,7 +47,10 @@ constexpr std::size_t kSpacingPlaces = 200;  ///< that tell whether points are s
 constexpr int kSmoothRounds = 3;
 constexpr double kHardlyNoise = 0.08;  ///< in h: less is left in
 constexpr std::size_t kGrain = 256;
-constexpr std::size_t kMinPiece = 100;  ///< faces; less may be seen through a wall, from behind
+/// Faces: less is a shred in the air; and less may have been seen through a wall, from behind, but
+/// not where all is seen from one side.
+constexpr std::size_t kMinPiece = 12;
+constexpr std::size_t kMinPieceOfBodies = 40;
 
 Box region_of(const TriangleMesh& mesh, double h) {
   Box region = bounds_of(mesh);
@@ -63,7 +66,7 @@ std::array<Vec3, 7> places_on(const TriangleMesh& mesh, const Triangle& face) {
   return {(a + b + c) / 3.0, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a), a, b, c};
 }
 
-void drop_shreds(TriangleMesh& mesh) {
+void drop_shreds(TriangleMesh& mesh, std::size_t min_faces) {
   const CornerTable table(mesh.triangles, mesh.positions.size());
   const std::vector<std::uint32_t> component = components_of(table);
   std::vector<std::size_t> faces(component.size(), 0);
@@ -71,7 +74,7 @@ void drop_shreds(TriangleMesh& mesh) {
     ++faces[c];
   std::vector<std::uint8_t> goes(component.size(), 0);
   for (std::size_t f = 0; f < component.size(); ++f)
-    goes[f] = faces[component[f]] < kMinPiece ? 1 : 0;
+    goes[f] = faces[component[f]] < min_faces ? 1 : 0;
   remove_triangles(mesh.triangles, goes);
 }
 
@@ -96,8 +99,7 @@ void drop_inside_out(TriangleMesh& mesh, const SeenPoints& seen, const PointGrid
   remove_triangles(mesh.triangles, goes);
 }
 
-/// Drops faces that lead through the air, those that hide the way to points, and what is left of
-/// them in small pieces.
+/// Drops faces that lead through the air, and those that hide the way to points.
 /// @param off points near those that the mesh does not show
 void clear_way(TriangleMesh& mesh, std::span<const Vec3> off, const PointGrid& left_out,
                const PointGrid& cloud, const RegrowOptions& options) {
@@ -113,7 +115,6 @@ void clear_way(TriangleMesh& mesh, std::span<const Vec3> off, const PointGrid& l
                             });
                    }));
   clean_topology(mesh);
-  drop_shreds(mesh);
 }
 
 /// Moves each onto the plane through the points around it, more than once: the points around its
@@ -163,6 +164,7 @@ std::size_t regrow(TriangleMesh& mesh, const SeenPoints& seen, const PointGrid& 
   const double off_mesh = std::max(kOffMesh * h, kOffMeshPerNoise * noise);
   drop_inside_out(mesh, seen, places, h);
   clear_way(mesh, points_off(near, mesh, off_mesh), places, grid, options);
+  drop_shreds(mesh, seen.votes.empty() ? kMinPiece : kMinPieceOfBodies);
   FacePart part = part_near(mesh, places, kPart * h);
   if (part.mesh.empty()) return 0;  // they are of another body, inside of this one
   std::vector<Vec3> missing = points_off(near, part.mesh, off_mesh);
