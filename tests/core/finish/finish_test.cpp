@@ -100,6 +100,21 @@ TEST_CASE("a torn and crumpled sphere becomes closed and free of self-intersecti
   REQUIRE(result.report.self_intersections_cut > 0);
 }
 
+TEST_CASE("of a mesh in which nothing crosses, whether that is told makes no difference") {
+  constexpr int kN = 32;
+  TriangleMesh mesh = testing::sphere(kN);
+  testing::cut_where(mesh, [](const Vec3& p) { return std::abs(p.z) < 0.08 && p.x > 0.2; });
+  REQUIRE(self_intersections(mesh).empty());
+  const std::vector<Vec3> points = sphere_points(40000, 7);
+  FinishOptions options = options_for(kN, FinishMethod::full);
+  options.regrow = GENERATE(true, false);
+  const TriangleMesh checked = finish(mesh, {points}, options).mesh;
+  options.is_clean = true;
+  const TriangleMesh told = finish(mesh, {points}, options).mesh;
+  CHECK(told == checked);
+  require_clean(told);
+}
+
 TEST_CASE(
     "far fewer triangles than the scans give are nearer to the cloud than evenly sized ones") {
   constexpr int kN = 48;

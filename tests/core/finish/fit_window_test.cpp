@@ -53,6 +53,21 @@ TEST_CASE("one place where a narrow fit finds another sheet does not narrow all 
   REQUIRE(window_with(true) == window_with(false));
 }
 
+TEST_CASE(
+    "of two scans out of place, which err alike everywhere, the widest window is as good as any") {
+  std::mt19937_64 engine(4);
+  constexpr double kOutOfPlace = 0.15 * kH;
+  std::vector<Vec3> points;
+  for (const Vec3& p : testing::sphere_points(kH / 1.6, 0.0, engine)) {
+    points.push_back(p * (1.0 + kOutOfPlace));
+    points.push_back(p * (1.0 - kOutOfPlace));
+  }
+  const PointGrid cloud(points, {Vec3(-1.5), Vec3(1.5)}, 0.7 * kH);
+  const FitWindow fit = choose_fit_window(testing::sphere(30), cloud, kH);
+  REQUIRE(fit.noise == Approx(kOutOfPlace).epsilon(0.2));
+  REQUIRE(fit.window.radius > 4.0 * kH);
+}
+
 TEST_CASE("without points there is a window nevertheless") {
   const FitWindow fit =
       choose_fit_window(testing::sphere(8), PointGrid({}, {Vec3(-1.0), Vec3(1.0)}, 0.1), kH);

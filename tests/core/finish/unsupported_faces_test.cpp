@@ -79,29 +79,23 @@ TEST_CASE("two faces that join two bodies through the air go, those on the bodie
   std::mt19937_64 engine(seed);
   TriangleMesh mesh;
   std::vector<Vec3> points;
-  const auto at = [](std::uint32_t i, std::uint32_t k) { return i * 11 + k; };
   for (const double z : {0.0, kGap}) {
+    const TriangleMesh sheet = shapes::square_sheet(10);
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    for (std::uint32_t i = 0; i <= 10; ++i) {
-      for (std::uint32_t k = 0; k <= 10; ++k)
-        mesh.positions.emplace_back(i, k, z);
-    }
-    for (std::uint32_t i = 0; i < 10; ++i) {
-      for (std::uint32_t k = 0; k < 10; ++k) {
-        const std::uint32_t a = first + at(i, k), b = first + at(i + 1, k),
-                            c = first + at(i + 1, k + 1), d = first + at(i, k + 1);
-        mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {a, c, d}});
-      }
-    }
+    for (const Vec3& p : sheet.positions)
+      mesh.positions.push_back(p + Vec3(0.0, 0.0, z));
+    for (const auto& [a, b, c] : sheet.triangles)
+      mesh.triangles.push_back({first + a, first + b, first + c});
     for (int i = 0; i < 800; ++i)  // 8 a square
       points.push_back(
-          {testing::uniform(engine, 0.0, 10.0), testing::uniform(engine, 0.0, 10.0), z});
+          {testing::uniform(engine, -5.0, 5.0), testing::uniform(engine, -5.0, 5.0), z});
   }
-  const std::uint32_t a = at(5, 0), b = at(6, 0), above = 121;
+  // From an edge of the lower sheet's border to the same one above.
+  const std::uint32_t a = 5, b = 6, above = 121;
   mesh.triangles.push_back({b, a, a + above});
   mesh.triangles.push_back({b, a + above, b + above});
   REQUIRE(report_mesh(mesh).components == 1);
-  const PointGrid cloud(points, {Vec3(-5.0), Vec3(15.0)}, 0.7);
+  const PointGrid cloud(points, {Vec3(-10.0), Vec3(10.0)}, 0.7);
   CHECK(drop_faces_in_air(mesh, cloud, 1.0) == 2);
   CHECK(report_mesh(mesh).components == 2);
 }
