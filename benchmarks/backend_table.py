@@ -58,8 +58,10 @@ class Results:
         return self.find(what='drawing', by='cpu', threads=threads, **scene)
 
     def copied_bytes_per_second(self, context):
-        row = self.find(what='device copy', context=context['context'])
-        return row and row['million_per_second'] * 1e6
+        """By the driver or by a kernel, whichever is faster."""
+        rates = [row['million_per_second'] * 1e6 for row in self.rows
+                 if holds(row, {'what': 'device copy', 'context': context['context']})]
+        return max(rates, default=None)
 
     def scenes(self, context):
         """The names of the scenes that a context drew, in their order."""
@@ -111,11 +113,10 @@ def gpu_lines(results):
     """The resident points of 1 pixel by `compute`, drawing alone."""
     what = 'resident points of 1 pixel, random order, 2048 x 2048, by `compute`'
     share = 'the same, part of the rate at which the device copies their bytes'
-    gpus = [context for context in results.contexts if not context['is_software']]
-    if not gpus:
-        return [(what, 'no GPU at hand', '>= 20 G/s'), (share, 'no GPU at hand', 'goal 50 %')]
     lines = []
-    for context in gpus:
+    for context in results.contexts:
+        if context['is_software']:
+            continue
         row = results.drawing(context, 'compute', **points(size=2048))
         copied = results.copied_bytes_per_second(context)
         if row is None or copied is None:

@@ -9,11 +9,6 @@ void merge_keys(std::span<PixelKey> onto, std::span<const PixelKey> from) {
     onto[i] = std::min(onto[i], from[i]);
 }
 
-void set_extent(Framebuffer& image, Extent extent) {
-  if (image.depth.extent() != extent) image.depth.reset(extent);
-  if (image.id.extent() != extent) image.id.reset(extent);
-}
-
 void unpack_keys(std::span<const PixelKey> keys, std::size_t first, Framebuffer& out) {
   const auto depth = out.depth.pixels().subspan(first, keys.size());
   const auto id = out.id.pixels().subspan(first, keys.size());

@@ -60,9 +60,6 @@ void with_acceptance(const DrawTarget& target, const Draw& draw) {
 /// Keeps the smaller key of every pixel in `onto`.
 void merge_keys(std::span<PixelKey> onto, std::span<const PixelKey> from);
 
-/// Gives an image this extent; its pixels are left as they come.
-void set_extent(Framebuffer& image, Extent extent);
-
 /// Splits a key. Where it is empty, all bits of it are set, and so are those of kNoDepth and
 /// kNoPrimitive.
 inline void unpack_key(PixelKey key, std::uint32_t& depth, PrimitiveId& id) noexcept {

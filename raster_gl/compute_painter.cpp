@@ -14,8 +14,7 @@ ComputePainter::ComputePainter(const ComputeTools& tools)
 
 DrawReport ComputePainter::draw(const View& view, std::span<const DrawItem> items,
                                 const DepthBand* band, Framebuffer& out) {
-  out.depth.reset(view.extent());
-  out.id.reset(view.extent());
+  set_extent(out, view.extent());
   DrawReport report;
   for (const ImagePart& part : parts_of(view.extent(), target_.most_pixels())) {
     const bool is_counting = part.first_row == 0;  // every part sees all points
@@ -64,8 +63,7 @@ std::size_t ComputePainter::draw_points(const DrawPoints& points, const RowTrans
       program.set("point_size", points.point_size);
       program.set("lanes", static_cast<unsigned>(lanes));
       program.set("is_counting", is_counting && pass == target_.passes().front() ? 1U : 0U);
-      const std::size_t invocations = is_single ? groups_of(count, kSinglePoints) : count * lanes;
-      tools_.kernels.dispatch(program, groups_of(invocations, kPointGroup));
+      tools_.kernels.dispatch(program, groups_of(count * lanes, kPointGroup));
     }
     tools_.device.check("drawing points");
     end = begin;

@@ -2,8 +2,6 @@
 
 #include <array>
 
-#include "core/base/parallel.h"
-
 namespace rangezip {
 
 namespace {
@@ -65,26 +63,27 @@ const GlProgram& ComputeTarget::kernel(Kernel kernel, ShaderVariant variant) con
 
 void ComputeTarget::read(Framebuffer& out) {
   const PhaseScope phase(tools_.device, GlPhase::read);
-  if (tools_.setup.has_atomic_int64) {
-    read_keys(out);
-    return;
-  }
-  depths_.download(part_.of(out.depth.pixels()));
-  winners_.download(part_.of(out.id.pixels()));
-}
-
-void ComputeTarget::read_keys(Framebuffer& out) {
-  keys_.resize(part_.pixels());
-  depths_.download(std::span(keys_));
   const auto depths = part_.of(out.depth.pixels());
   const auto ids = part_.of(out.id.pixels());
-  constexpr std::size_t kGrain = std::size_t{1} << 16;
-  parallel_for(keys_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      depths[i] = static_cast<std::uint32_t>(keys_[i] >> 32U);
-      ids[i] = static_cast<std::uint32_t>(keys_[i]);
-    }
-  });
+  if (!tools_.setup.has_atomic_int64) {
+    depths_.download(depths);
+    winners_.download(ids);
+    return;
+  }
+  split_keys();
+  winners_.download(ids);
+  winners_.download(depths, ids.size_bytes());
+}
+
+void ComputeTarget::split_keys() {
+  const std::size_t pixels = part_.pixels();
+  winners_.reserve(pixels * kBytesPerKey, "the image");
+  tools_.kernels.bind(Binding::depths, depths_);
+  tools_.kernels.bind(Binding::winners, winners_);
+  const GlProgram& program = tools_.kernels.get(Kernel::split_keys, {});
+  program.set("count", static_cast<unsigned>(pixels));
+  tools_.kernels.dispatch(program, groups_of(pixels, kPointGroup));
+  tools_.device.check("splitting depths and IDs");
 }
 
 }  // namespace rangezip

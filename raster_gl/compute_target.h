@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
-#include <vector>
 
 #include "core/raster/framebuffer.h"
 #include "raster_gl/compute_tools.h"
@@ -34,7 +32,7 @@ class ComputeTarget {
   void read(Framebuffer& out);
 
  private:
-  void read_keys(Framebuffer& out);
+  void split_keys();
 
   const ComputeTools& tools_;
   ImagePart part_;
@@ -43,7 +41,6 @@ class ComputeTarget {
   GlBuffer winners_;
   GlBuffer lower_;
   GlBuffer upper_;
-  std::vector<std::uint64_t> keys_;
 };
 
 }  // namespace rangezip

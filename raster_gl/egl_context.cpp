@@ -41,12 +41,16 @@ struct EglFunctions {
     throw BackendError("EGL: " + what + " (error 0x" + digits + ")");
   }
 
-  /// @throws BackendError unless the display (or EGL itself, without one) has the extension
-  void require(EGLDisplay display, const std::string& extension) const {
+  /// Whether the display (or EGL itself, without one) has the extension.
+  [[nodiscard]] bool has(EGLDisplay display, const std::string& extension) const {
     const char* const list = QueryString(display, EGL_EXTENSIONS);
     const std::string all = list == nullptr ? " " : " " + std::string(list) + " ";
-    if (all.find(" " + extension + " ") != std::string::npos) return;
-    throw BackendError("EGL: there is no extension " + extension);
+    return all.find(" " + extension + " ") != std::string::npos;
+  }
+
+  /// @throws BackendError unless has()
+  void require(EGLDisplay display, const std::string& extension) const {
+    if (!has(display, extension)) throw BackendError("EGL: there is no extension " + extension);
   }
 
   /// A function of an extension; null would be a defect of the driver.
@@ -58,7 +62,10 @@ struct EglFunctions {
 };
 
 std::vector<EGLDeviceEXT> list_devices(const EglFunctions& egl) {
-  egl.require(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration");
+  // The older extension of which that is a part; NVIDIA's driver names it alone.
+  if (!egl.has(EGL_NO_DISPLAY, "EGL_EXT_device_base")) {
+    egl.require(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration");
+  }
   PFNEGLQUERYDEVICESEXTPROC query_devices = nullptr;
   egl.find("eglQueryDevicesEXT", query_devices);
   EGLint count = 0;

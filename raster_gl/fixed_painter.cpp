@@ -67,8 +67,7 @@ FixedPainter::FixedPainter(const ComputeTools& tools)
 
 DrawReport FixedPainter::draw(const View& view, std::span<const DrawItem> items,
                               const DepthBand* band, Framebuffer& out) {
-  out.depth.reset(view.extent());
-  out.id.reset(view.extent());
+  set_extent(out, view.extent());
   has_band_ = band != nullptr;
   DrawReport report;
   bool has_outside = false;

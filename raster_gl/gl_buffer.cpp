@@ -38,9 +38,7 @@ void GlBuffer::upload_bytes(std::span<const std::byte> bytes, const char* conten
 void GlBuffer::download_bytes(std::span<std::byte> bytes, std::size_t offset) const {
   if (bytes.empty()) return;
   const PhaseScope phase(*device_, GlPhase::read);
-  device_->gl().GetNamedBufferSubData(name(), static_cast<GLintptr>(offset),
-                                      static_cast<GLsizeiptr>(bytes.size()), bytes.data());
-  device_->check("reading a buffer");
+  device_->read(name(), offset, bytes);
 }
 
 }  // namespace rangezip

@@ -71,6 +71,7 @@ std::string name_of(GLenum error) {
 GlDevice::GlDevice(const CurrentContext& current, GlPhaseObserver observer)
     : gl_(current),
       log_(std::make_unique<DebugLog>()),
+      read_back_(std::make_unique<ReadBack>(gl_)),
       observer_(std::move(observer)),
       renderer_(text_of(gl_, GL_RENDERER)),
       version_(text_of(gl_, GL_VERSION)) {
@@ -108,6 +109,15 @@ void GlDevice::check(const char* stage) const {
   if (!log_->last_error.empty()) text += "; the driver says: " + log_->last_error;
   log_->last_error.clear();
   throw BackendError(text);
+}
+
+void GlDevice::read(GLuint buffer, std::size_t offset, std::span<std::byte> bytes) const {
+  constexpr const char* kStage = "reading a buffer";
+  const bool is_read = read_back_->read(buffer, offset, bytes);
+  check(kStage);
+  // The driver may take what is mapped away, as when a screen's mode changes.
+  if (!is_read)
+    throw BackendError("OpenGL (" + renderer_ + "), " + kStage + ": what was read is lost");
 }
 
 GlPhase GlDevice::enter(GlPhase phase) const {

@@ -2,10 +2,12 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "raster_gl/gl_functions.h"
 #include "raster_gl/gl_phase.h"
+#include "raster_gl/read_back.h"
 
 namespace rangezip {
 
@@ -35,6 +37,10 @@ class GlDevice {
   ///     what the driver's debug output told last.
   void check(const char* stage) const;
 
+  /// Copies from `offset` bytes of a buffer on into `bytes`. Waits for the device.
+  /// @throws BackendError as check()
+  void read(GLuint buffer, std::size_t offset, std::span<std::byte> bytes) const;
+
   /// Tells the observer, if there is one, that a phase begins, once the one before is finished.
   /// @return the one before
   GlPhase enter(GlPhase phase) const;
@@ -44,6 +50,7 @@ class GlDevice {
 
   GlFunctions gl_;
   std::unique_ptr<DebugLog> log_;
+  std::unique_ptr<ReadBack> read_back_;
   GlPhaseObserver observer_;
   mutable GlPhase phase_ = GlPhase::draw;  ///< of those that the observer was told
   std::string renderer_;

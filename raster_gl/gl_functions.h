@@ -21,6 +21,7 @@ namespace rangezip {
   X(gl, ClearNamedFramebufferuiv)     \
   X(gl, ClipControl)                  \
   X(gl, CompileShader)                \
+  X(gl, CopyNamedBufferSubData)       \
   X(gl, CreateBuffers)                \
   X(gl, CreateFramebuffers)           \
   X(gl, CreateProgram)                \
@@ -48,7 +49,6 @@ namespace rangezip {
   X(gl, GetGraphicsResetStatus)       \
   X(gl, GetInteger64v)                \
   X(gl, GetIntegerv)                  \
-  X(gl, GetNamedBufferSubData)        \
   X(gl, GetProgramInfoLog)            \
   X(gl, GetProgramiv)                 \
   X(gl, GetShaderInfoLog)             \
@@ -57,6 +57,7 @@ namespace rangezip {
   X(gl, GetStringi)                   \
   X(gl, GetUniformLocation)           \
   X(gl, LinkProgram)                  \
+  X(gl, MapNamedBufferRange)          \
   X(gl, MemoryBarrier)                \
   X(gl, NamedBufferData)              \
   X(gl, NamedBufferSubData)           \
@@ -68,6 +69,7 @@ namespace rangezip {
   X(gl, ProgramUniformMatrix4fv)      \
   X(gl, ReadPixels)                   \
   X(gl, ShaderSource)                 \
+  X(gl, UnmapNamedBuffer)             \
   X(gl, UseProgram)                   \
   X(gl, VertexArrayElementBuffer)     \
   X(gl, Viewport)

@@ -20,6 +20,8 @@ std::string source_of(Kernel kernel, const ShaderVariant& variant) {
       return shader_text::draw_small_triangles(variant);
     case Kernel::draw_tiles:
       return shader_text::draw_tiles(variant);
+    case Kernel::split_keys:
+      return shader_text::split_keys();
     case Kernel::sum_points:
       break;
   }
@@ -40,6 +42,8 @@ const char* name_of(Kernel kernel) {
       return "draw_small_triangles";
     case Kernel::draw_tiles:
       return "draw_tiles";
+    case Kernel::split_keys:
+      return "split_keys";
     case Kernel::sum_points:
       break;
   }
@@ -65,7 +69,6 @@ std::string kernel_definitions() {
   define("PLACE_OUTSIDE", static_cast<std::uint32_t>(Place::outside));
   define("PLACE_REJECTED", static_cast<std::uint32_t>(Place::rejected));
   define("MOST_POINTS", kMostPointsPerPixel);
-  define("SINGLE_POINTS", kSinglePoints);
   return text;
 }
 

@@ -22,7 +22,7 @@ namespace rangezip {
   X(tiles, TILES)         /* of large triangles: number of the triangle, number of the tile */    \
   X(counters, COUNTERS)   /* see Counter */                                                       \
   X(depths, DEPTHS)       /* one a pixel; 64-bit keys where depth and ID are drawn in one pass */ \
-  X(winners, WINNERS)     /* IDs, one a pixel */                                                  \
+  X(winners, WINNERS)     /* IDs, one a pixel; of keys that were split, the depths after them */  \
   X(lower, LOWER)         /* band of depths, one a pixel */                                       \
   X(upper, UPPER)                                                                                 \
   X(reference, REFERENCE) /* R13, one a pixel */                                                  \
@@ -72,9 +72,6 @@ inline constexpr std::size_t kTriangleGroup = 64;
   return (invocations + group - 1) / group;
 }
 
-/// Points of size 1 that one invocation takes.
-inline constexpr std::uint32_t kSinglePoints = 4;
-
 /// The names above as GLSL sees them.
 [[nodiscard]] std::string kernel_definitions();
 
@@ -82,10 +79,11 @@ inline constexpr std::uint32_t kSinglePoints = 4;
 enum class Kernel : std::uint8_t {
   snap_positions,        ///< R2-R4, R11 for the corners of triangles
   draw_points,           ///< R2-R5, R11, R12: snaps and plots
-  draw_single_points,    ///< the same for points of size 1, several an invocation
+  draw_single_points,    ///< the same for points of size 1
   classify_triangles,    ///< R6: lists rejected triangles, and the tiles of large ones
   draw_small_triangles,  ///< R6, R7: one invocation a triangle of up to 64 pixels
   draw_tiles,            ///< R6, R7: 64 invocations a tile of 256 x 64 pixels
+  split_keys,            ///< IDs, then depths, of a part's keys
   sum_points,            ///< R13
 };
 

@@ -37,8 +37,7 @@ NativePainter::NativePainter(const ComputeTools& tools)
 
 DrawReport NativePainter::draw(const View& view, std::span<const DrawItem> items,
                                const DepthBand* band, Framebuffer& out) {
-  out.depth.reset(view.extent());
-  out.id.reset(view.extent());
+  set_extent(out, view.extent());
   has_band_ = band != nullptr;
   clip_planes_ = view.camera().clip_planes.size();
   if (clip_planes_ > kMostClipPlanes) {

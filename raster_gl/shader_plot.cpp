@@ -16,11 +16,9 @@ layout(std430, binding = UPPER) readonly buffer Upper { int upper[]; };
 #endif
 #if PASS == PASS_KEY
 layout(std430, binding = DEPTHS) buffer Keys { uint64_t keys[]; };
-#define Found uint64_t
 #else
 layout(std430, binding = DEPTHS) buffer Depths { uint depths[]; };
 layout(std430, binding = WINNERS) buffer Winners { uint winners[]; };
-#define Found uint
 #endif
 
 uint pixel_at(int x, int y) { return uint(y - first_row) * uint(width) + uint(x); }
@@ -34,33 +32,24 @@ bool is_in_depth(uint pixel, int depth) {
 #endif
 }
 
-// What a pixel holds. To read it first spares most of the atomic operations; an old value only costs
-// one more.
-Found look(uint pixel) {
+// A fragment at a pixel of the part (R9); a depth of -1 draws nothing. To read first what the pixel
+// holds spares most of the atomic operations; an old value only costs one more.
+void plot_at(uint pixel, int depth, uint id) {
 #if PASS == PASS_KEY
-  return keys[pixel];
-#else
-  return depths[pixel];
-#endif
-}
-
-// R9, for what look() found.
-void settle(uint pixel, int depth, uint id, Found found) {
-#if PASS == PASS_KEY
+  uint64_t found = keys[pixel];
   uint64_t key = uint64_t(depth) << 32 | uint64_t(id);
-  if (key < found) atomicMin(keys[pixel], key);
+  if (is_in_depth(pixel, depth) && key < found) atomicMin(keys[pixel], key);
 #elif PASS == PASS_DEPTH
-  if (uint(depth) < found) atomicMin(depths[pixel], uint(depth));
+  uint found = depths[pixel];
+  if (is_in_depth(pixel, depth) && uint(depth) < found) atomicMin(depths[pixel], uint(depth));
 #else
-  if (uint(depth) == found) atomicMin(winners[pixel], id);
+  uint found = depths[pixel];
+  if (is_in_depth(pixel, depth) && uint(depth) == found) atomicMin(winners[pixel], id);
 #endif
 }
 
-// A fragment at column x, row y.
-void plot(int x, int y, int depth, uint id) {
-  uint pixel = pixel_at(x, y);
-  if (is_in_depth(pixel, depth)) settle(pixel, depth, id, look(pixel));
-}
+// At column x, row y.
+void plot(int x, int y, int depth, uint id) { plot_at(pixel_at(x, y), depth, id); }
 )";
 
 }  // namespace

@@ -1,12 +1,13 @@
 #!/usr/bin/python3
 """Holds OpenGL against the CPU on real data: in every pixel of drawings, and in files of meshes.
 
-    data.py [FOLDER]
+    data.py [--backend NAME]... [FOLDER]
 
-FOLDER  of the data; default: $RANGEZIP_SHARED/data, else ../shared/data
+--backend  of OpenGL, as `rangezip --backend` takes it; default: gl:osmesa and gl:egl
+FOLDER     of the data; default: $RANGEZIP_SHARED/data, else ../shared/data
 
 Every file of FOLDER that can be read is drawn from 26 directions, 512 x 512 and 2048 x 2048 pixels,
-with OSMesa and with EGL, by each strategy, and judged by `rangezip-compare draw`: `compute` and
+with each backend, by each strategy, and judged by `rangezip-compare draw`: `compute` and
 `fixed_function` must not differ from the CPU in any pixel, and of the differences of `native` none
 may be unexplained. Then each input of MESHES goes through `rangezip mesh` with each backend, and
 the files must be the same, byte for byte.
@@ -32,7 +33,7 @@ COMPARE = os.path.join(APPS, 'rangezip-compare/rangezip-compare')
 RANGEZIP = os.path.join(APPS, 'rangezip/rangezip')
 SCRATCH = os.path.join(REPOSITORY, 'out/equality')
 
-GL_BACKENDS = ['gl:osmesa', 'gl:egl']
+DEFAULT_BACKENDS = ['gl:osmesa', 'gl:egl']
 STRATEGIES = ['compute', 'fixed_function', 'native']
 VIEWS = 26
 SIDES = [512, 2048]  # of the square images, in pixels
@@ -101,7 +102,7 @@ def drawing_of(name, side, report):
     return drawing, {each['name']: each['renderer'] for each in candidates}
 
 
-def draw(folder, name, side):
+def draw(folder, backends, name, side):
     """Draws one file at one size. Returns what goes to the result, or the reason why it cannot be
     read, and the drivers."""
     report_path = scratch_path(name, f'-{side}.json')
@@ -109,7 +110,7 @@ def draw(folder, name, side):
         os.remove(report_path)  # of an earlier run
     done = subprocess.run(
         [COMPARE, 'draw', os.path.join(folder, name), '--views', str(VIEWS),
-         '--size', f'{side},{side}', '--backends', ','.join(['cpu', *GL_BACKENDS]),
+         '--size', f'{side},{side}', '--backends', ','.join(['cpu', *backends]),
          '--strategy', ','.join(STRATEGIES), '--json', report_path],
         capture_output=True, text=True, check=False)
     if done.returncode == BAD_INPUT:
@@ -137,14 +138,14 @@ def line_of(drawing):
     return '| ' + ' | '.join(map(str, cells)) + ' |'
 
 
-def draw_all(folder):
+def draw_all(folder, backends):
     """Every file at every size, small ones first, as many at a time as there are processors."""
     drawings, skipped, drivers = [], [], {}
     tasks = [(name, side) for side in SIDES for name in data_files(folder)]
     print('| file | side | pixels | covered | exact strategies: differing | native: differing | '
           'unexplained |\n|---|---|---|---|---|---|---|', flush=True)
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for drawing, used in pool.map(lambda task: draw(folder, *task), tasks):
+        for drawing, used in pool.map(lambda task: draw(folder, backends, *task), tasks):
             if 'reason' not in drawing:
                 drawings.append(drawing)
                 drivers |= used
@@ -182,17 +183,17 @@ def mesh_file(folder, name, backend):
             'seconds': round(seconds, 1)}
 
 
-def mesh_all(folder):
+def mesh_all(folder, backends):
     """Every input of MESHES with every backend. Returns what came out, and what is missing."""
     meshes, missing = [], []
-    print('| input of rangezip mesh | bytes | seconds: cpu, ' + ', '.join(GL_BACKENDS) +
+    print('| input of rangezip mesh | bytes | seconds: cpu, ' + ', '.join(backends) +
           ' | files |\n|---|---|---|---|', flush=True)
     for name in MESHES:
         if not os.path.exists(os.path.join(folder, name)):
             missing.append({'file': name, 'reason': 'is missing'})
             print(f'| {name} | is missing |', flush=True)
             continue
-        by = {backend: mesh_file(folder, name, backend) for backend in ['cpu', *GL_BACKENDS]}
+        by = {backend: mesh_file(folder, name, backend) for backend in ['cpu', *backends]}
         meshes.append({'input': name, 'identical': len({m['sha256'] for m in by.values()}) == 1,
                        'by': by})
         print(f'| {name} | {by["cpu"]["bytes"]} | ' +
@@ -210,7 +211,7 @@ def store(result):
     print(f'result    {path}')
 
 
-def check(folder):
+def check(folder, backends):
     """Returns whether nothing differs that must not."""
     run('cmake', '--preset', 'release')
     run('cmake', '--build', '--preset', 'release', '--target', 'rangezip', 'rangezip-compare')
@@ -219,8 +220,8 @@ def check(folder):
     result = {'program': 'robustness/data.py',
               'date': datetime.datetime.now(datetime.timezone.utc).strftime('%Y-%m-%d %H:%M UTC'),
               'revision': from_names('revision'), 'machine': from_names('machine_name')}
-    drawings, skipped, drivers = draw_all(folder)
-    meshes, missing = mesh_all(folder)
+    drawings, skipped, drivers = draw_all(folder, backends)
+    meshes, missing = mesh_all(folder, backends)
     totals = totals_of(drawings)
     all_good = all(map(is_good, drawings)) and all(mesh['identical'] for mesh in meshes)
     store(result | {'seconds': round(time.monotonic() - start), 'good': all_good,
@@ -237,9 +238,11 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     shared = os.environ.get('RANGEZIP_SHARED', os.path.join(REPOSITORY, '../shared'))
     parser.add_argument('folder', metavar='FOLDER', nargs='?', default=os.path.join(shared, 'data'))
-    folder = os.path.abspath(parser.parse_args().folder)
+    parser.add_argument('--backend', action='append', metavar='NAME')
+    arguments = parser.parse_args()
+    folder = os.path.abspath(arguments.folder)
     try:
-        return 0 if check(folder) else 1
+        return 0 if check(folder, arguments.backend or DEFAULT_BACKENDS) else 1
     except Failure as failure:
         print(f'data.py: {failure}', file=sys.stderr)
         return 2

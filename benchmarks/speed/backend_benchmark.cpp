@@ -114,7 +114,9 @@ void measure_scene(Results& results, const GlBackend& backend, const Scene& scen
 void measure_limits(Results& results, const GlBackend& backend) {
   const Cloud cloud = make_cloud(10 * kMillion, Order::scan);
   std::vector<Case> cases = limits_of(bytes_of(cloud));
-  cases.push_back(device_copy_case(backend.context, size_of(bytes_of(cloud)), backend.is_by_wall));
+  for (Case& copy :
+       device_copy_cases(backend.context, size_of(bytes_of(cloud)), backend.is_by_wall))
+    cases.push_back(std::move(copy));
   results.measure(cases, kEffort);
 }
 

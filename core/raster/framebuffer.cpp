@@ -20,6 +20,11 @@ Framebuffer make_framebuffer(Extent extent) {
           .id = Grid<PrimitiveId>(extent, kNoPrimitive)};
 }
 
+void set_extent(Framebuffer& image, Extent extent) {
+  if (image.depth.extent() != extent) image.depth.reset(extent);
+  if (image.id.extent() != extent) image.id.reset(extent);
+}
+
 void composite(Framebuffer& onto, const Framebuffer& from) {
   for (const Extent extent : {onto.id.extent(), from.depth.extent(), from.id.extent()}) {
     if (extent == onto.depth.extent()) continue;

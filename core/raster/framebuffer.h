@@ -23,6 +23,10 @@ struct Framebuffer {
 /// An empty framebuffer.
 [[nodiscard]] Framebuffer make_framebuffer(Extent extent);
 
+/// Gives an image this extent, for a rasterizer that then sets every pixel: they are left as they
+/// come, which spares emptying them.
+void set_extent(Framebuffer& image, Extent extent);
+
 /// Keeps in `onto`, per pixel, the nearer of the two; of equal depths the lower id. Order never
 /// matters, so threads, chunks of a cloud too large for memory, and MPI ranks may each draw
 /// their part and be put together by this.

@@ -63,9 +63,10 @@ EGLBoolean eglMakeCurrent(EGLDisplay /*display*/, EGLSurface /*draw*/, EGLSurfac
 }
 const char* eglQueryString(EGLDisplay display, EGLint /*name*/) {
   if (display == EGL_NO_DISPLAY) {
-    return has_fault("no platforms") ? nullptr
-                                     : "EGL_EXT_device_enumeration EGL_EXT_platform_device "
-                                       "EGL_MESA_platform_surfaceless";
+    if (has_fault("no platforms")) return nullptr;
+    // NVIDIA's driver names the older extension only, of which enumeration is a part.
+    if (has_fault("older name")) return "EGL_EXT_device_base EGL_EXT_platform_device";
+    return "EGL_EXT_device_enumeration EGL_EXT_platform_device EGL_MESA_platform_surfaceless";
   }
   return has_fault("needs surfaces") ? "EGL_KHR_no_config_context"
                                      : "EGL_KHR_no_config_context EGL_KHR_surfaceless_context";

@@ -29,6 +29,7 @@ unsigned next_error = 0;
 unsigned error_after = 0;
 unsigned reset_status = 0;
 bool hides_int64 = false;
+bool loses_mapped = false;
 const unsigned char* (*real_get_stringi)(unsigned, unsigned) = nullptr;
 
 unsigned get_error() {
@@ -43,6 +44,11 @@ const unsigned char* get_stringi(unsigned name, unsigned index) {
                                                     "GL_ARB_gpu_shader_int64") == 0;
   return is_hidden ? reinterpret_cast<const unsigned char*>("GL_EXT_nothing") : text;
 }
+unsigned char (*real_unmap)(unsigned) = nullptr;
+unsigned char unmap(unsigned buffer) {
+  real_unmap(buffer);
+  return loses_mapped ? 0 : 1;
+}
 void draw_nothing(unsigned /*x*/, unsigned /*y*/, unsigned /*z*/) {}
 
 /// OSMesa with some functions of its own.
@@ -53,6 +59,7 @@ class FaultyContext final : public GlContext {
     error_after = 0;
     reset_status = 0;
     hides_int64 = false;
+    loses_mapped = false;
   }
   [[nodiscard]] std::string name() const override { return "faulty"; }
   [[nodiscard]] Function function(const char* name) const override {
@@ -64,6 +71,10 @@ class FaultyContext final : public GlContext {
       real_get_stringi =
           reinterpret_cast<decltype(real_get_stringi)>(real_->function("glGetStringi"));
       return reinterpret_cast<Function>(&get_stringi);
+    }
+    if (wanted == "glUnmapNamedBuffer") {
+      real_unmap = reinterpret_cast<decltype(real_unmap)>(real_->function(name));
+      return reinterpret_cast<Function>(&unmap);
     }
     return real_->function(name);
   }
@@ -101,8 +112,11 @@ TEST_CASE("out of memory and the loss of the context are errors that say so") {
   CHECK_NOTHROW(rasterizer.render(view, items));
   reset_status = kGuiltyReset;
   CHECK_THROWS_WITH(rasterizer.render(view, items), Contains("the context was lost"));
-  // What was an error of one drawing is none of the next.
   reset_status = 0;
+  loses_mapped = true;
+  CHECK_THROWS_WITH(rasterizer.render(view, items), Contains("what was read is lost"));
+  // What was an error of one drawing is none of the next.
+  loses_mapped = false;
   CHECK(rasterizer.render(view, items).id[{0, 0}] == 0);
 }
 
