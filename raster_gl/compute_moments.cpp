@@ -55,10 +55,10 @@ void ComputeMoments::begin(const ImagePart& part, const AccumulateWindow& window
   reference_.upload(part.of(window.reference.pixels()), "the window");
   const std::size_t bytes = part.pixels() * sizeof(PixelMoments);
   sums_.reserve(bytes, "sums");
-  sums_.fill(bytes, 0);
+  tools_.kernels.fill(sums_, bytes, 0);
   const std::size_t count_bytes = part.pixels() * sizeof(std::uint32_t);
   counts_.reserve(count_bytes, "counts");
-  counts_.fill(count_bytes, 0);
+  tools_.kernels.fill(counts_, count_bytes, 0);
   const Kernels& kernels = tools_.kernels;
   counters_.restart(kernels);
   kernels.bind(Binding::lower, lower_);

@@ -38,7 +38,7 @@ void ComputeTarget::begin(const ImagePart& part, const DepthBand* band) {
     if (is_one_pass && buffer == &winners_) break;
     const std::size_t bytes = part.pixels() * (is_one_pass ? kBytesPerKey : kBytesPerDepth);
     buffer->reserve(bytes, "the image");
-    buffer->fill(bytes, kNoDepth);
+    tools_.kernels.fill(*buffer, bytes, kNoDepth);
   }
   kernels.bind(Binding::depths, depths_);
   kernels.bind(Binding::winners, winners_);

@@ -10,21 +10,13 @@ GlBuffer::GlBuffer(const GlDevice& device)
       object_(make_object(device.gl().CreateBuffers, device.gl().DeleteBuffers)) {}
 
 void GlBuffer::reserve(std::size_t bytes, const char* content) {
-  // A buffer without memory cannot be bound, and shaders see whole words only.
-  constexpr std::size_t kLeast = 64;
-  constexpr std::size_t kWord = 4;
-  bytes = std::max((bytes + kWord - 1) / kWord * kWord, kLeast);
+  constexpr std::size_t kLeast = 64;  // a buffer without memory cannot be bound
+  bytes = std::max((bytes + kGranule - 1) / kGranule * kGranule, kLeast);
   if (bytes <= bytes_) return;
   bytes_ = 0;
   device_->gl().NamedBufferData(name(), static_cast<GLsizeiptr>(bytes), nullptr, GL_DYNAMIC_COPY);
   device_->check((std::to_string(bytes) + " bytes for " + content).c_str());
   bytes_ = bytes;
-}
-
-void GlBuffer::fill(std::size_t bytes, std::uint32_t value) {
-  if (bytes == 0) return;
-  device_->gl().ClearNamedBufferSubData(name(), GL_R32UI, 0, static_cast<GLsizeiptr>(bytes),
-                                        GL_RED_INTEGER, GL_UNSIGNED_INT, &value);
 }
 
 void GlBuffer::upload_bytes(std::span<const std::byte> bytes, const char* content) {

@@ -12,6 +12,9 @@ namespace rangezip {
 /// Memory of the device. Kept as long as the object lives, reused where it is large enough.
 class GlBuffer {
  public:
+  /// A buffer has a multiple of so many bytes: shaders see whole words, and groups of four.
+  static constexpr std::size_t kGranule = 16;
+
   explicit GlBuffer(const GlDevice& device);
 
   [[nodiscard]] GLuint name() const noexcept { return object_.name(); }
@@ -27,9 +30,6 @@ class GlBuffer {
   void upload(std::span<const T, kExtent> values, const char* content) {
     upload_bytes(std::as_bytes(values), content);
   }
-
-  /// Sets the first `bytes`, a multiple of four, to copies of `value`. @pre they are there
-  void fill(std::size_t bytes, std::uint32_t value);
 
   /// Copies from `offset` bytes on into `values`. Waits for the device.
   template <class T, std::size_t kExtent>

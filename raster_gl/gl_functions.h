@@ -16,7 +16,6 @@ namespace rangezip {
   X(gl, BindFramebuffer)              \
   X(gl, BindVertexArray)              \
   X(gl, CheckNamedFramebufferStatus)  \
-  X(gl, ClearNamedBufferSubData)      \
   X(gl, ClearNamedFramebufferfv)      \
   X(gl, ClearNamedFramebufferuiv)     \
   X(gl, ClipControl)                  \

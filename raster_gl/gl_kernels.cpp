@@ -8,6 +8,8 @@ namespace {
 
 std::string source_of(Kernel kernel, const ShaderVariant& variant) {
   switch (kernel) {
+    case Kernel::fill:
+      return shader_text::fill();
     case Kernel::snap_positions:
       return shader_text::snap_positions(variant);
     case Kernel::draw_points:
@@ -30,6 +32,8 @@ std::string source_of(Kernel kernel, const ShaderVariant& variant) {
 
 const char* name_of(Kernel kernel) {
   switch (kernel) {
+    case Kernel::fill:
+      return "fill";
     case Kernel::snap_positions:
       return "snap_positions";
     case Kernel::draw_points:
@@ -78,6 +82,15 @@ const GlProgram& Kernels::get(Kernel kernel, const ShaderVariant& variant) {
   if (found != programs_.end()) return found->second;
   GlProgram program(device_, name_of(kernel), {{GL_COMPUTE_SHADER, source_of(kernel, variant)}});
   return programs_.emplace(key, std::move(program)).first->second;
+}
+
+void Kernels::fill(const GlBuffer& buffer, std::size_t bytes, std::uint32_t value) {
+  const std::size_t count = (bytes + GlBuffer::kGranule - 1) / GlBuffer::kGranule;
+  const GlProgram& program = get(Kernel::fill, {});
+  bind(Binding::depths, buffer);
+  program.set("count", static_cast<unsigned>(count));
+  program.set("value", static_cast<unsigned>(value));
+  dispatch(program, groups_of(count, kPointGroup));
 }
 
 void Kernels::dispatch(const GlProgram& program, std::size_t groups) const {

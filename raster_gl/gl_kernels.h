@@ -77,6 +77,7 @@ inline constexpr std::size_t kTriangleGroup = 64;
 
 /// A step of drawing or summing.
 enum class Kernel : std::uint8_t {
+  fill,                  ///< copies of a number
   snap_positions,        ///< R2-R4, R11 for the corners of triangles
   draw_points,           ///< R2-R5, R11, R12: snaps and plots
   draw_single_points,    ///< the same for points of size 1
@@ -94,6 +95,12 @@ class Kernels {
 
   /// @throws BackendError if the driver refuses it
   [[nodiscard]] const GlProgram& get(Kernel kernel, const ShaderVariant& variant);
+
+  /// Sets the first `bytes` of a buffer to copies of `value`, and some of those after them, up
+  /// to 16. By a kernel, for drivers may take a hundred times as long (glClearNamedBufferSubData).
+  /// What was bound as Binding::depths is so no more. @pre they are there
+  /// @throws BackendError as get()
+  void fill(const GlBuffer& buffer, std::size_t bytes, std::uint32_t value);
 
   /// Runs `groups` groups of a kernel's invocations, and has what comes after see what they wrote.
   void dispatch(const GlProgram& program, std::size_t groups) const;

@@ -1,6 +1,8 @@
 #include "raster_gl/read_back.h"
 
-#include <cstring>
+#include <algorithm>
+
+#include "core/base/parallel.h"
 
 namespace rangezip {
 
@@ -19,7 +21,11 @@ bool ReadBack::read(GLuint buffer, std::size_t offset, std::span<std::byte> byte
     capacity_ = 0;  // it may have had no memory
     return false;
   }
-  std::memcpy(bytes.data(), mapped, bytes.size());
+  const auto* const from = static_cast<const std::byte*>(mapped);
+  constexpr std::size_t kGrain = std::size_t{1} << 20;
+  parallel_for(bytes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    std::copy(from + begin, from + end, bytes.data() + begin);
+  });
   return gl_.UnmapNamedBuffer(staging_.name()) == GL_TRUE;
 }
 

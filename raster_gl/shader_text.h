@@ -42,6 +42,7 @@ namespace shader_text {
 [[nodiscard]] std::string classify_triangles(const ShaderVariant& variant);
 [[nodiscard]] std::string draw_small_triangles(const ShaderVariant& variant);
 [[nodiscard]] std::string draw_tiles(const ShaderVariant& variant);
+[[nodiscard]] std::string fill();
 [[nodiscard]] std::string split_keys();
 [[nodiscard]] std::string sum_points(const ShaderVariant& variant);
 

@@ -129,6 +129,9 @@ void measure_quick(Results& results, const GlBackend& backend) {
   for (const int point_size : {1, 3})
     measure_scene(results, backend, make_scene(random, point_size, kSize));
   measure_scene(results, backend, make_scene(random, 1, 2 * kSize));
+  if (!backend.is_software)
+    measure_scene(results, backend,
+                  make_scene(make_cloud(100 * kMillion, Order::random), 1, 2 * kSize));
   measure_scene(results, backend, make_scene(make_cloud(count, Order::scan), 1, kSize));
   measure_scene(results, backend, make_scene(make_cloud(count / 10, Order::random), 1, kSize));
   const int size = backend.is_software ? kSize / 2 : kSize;

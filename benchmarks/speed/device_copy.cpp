@@ -42,7 +42,8 @@ class DeviceCopy {
     objects_ = std::make_unique<Objects>(current);
     for (GlBuffer* const buffer : {&objects_->from, &objects_->to}) {
       buffer->reserve(bytes_, "a copy");
-      buffer->fill(bytes_, 0);  // memory that was never written may not be there yet
+      objects_->kernels.fill(*buffer, bytes_,
+                             0);  // memory that was never written may not be there yet
     }
     if (is_by_kernel) {
       objects_->kernel = std::make_unique<GlProgram>(
