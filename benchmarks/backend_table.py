@@ -8,8 +8,7 @@ RESULTS.json  a file that backend_benchmark --json wrote
 
 First what is demanded beside what was seen; then, for each OpenGL context, items a second of every
 backend; and what upload, drawing and read-back take. Times of a software renderer that draws on
-the calling thread are processor time, all others wall time. What was not measured, or needs a GPU
-where there is none, says so.
+the calling thread are processor time, all others wall time. What was not measured says so.
 """
 import argparse
 
@@ -197,7 +196,7 @@ def limit_line(results):
 def context_line(results, context):
     copied = results.copied_bytes_per_second(context)
     copies = '' if copied is None else \
-        f'; copies {copied / 1e9:.3g} GB/s from one buffer of the device to another'
+        f'; copies {float(f"{copied / 1e9:.3g}"):g} GB/s from one buffer of the device to another'
     return f'- {context["context"]}: {context["renderer"]}, OpenGL {context["version"]}{copies}'
 
 
@@ -208,10 +207,11 @@ def print_tables(report, has_all):
     sections += [rate_table(results, context) for context in results.contexts]
     sections += [phase_table(results, context, has_all) for context in results.contexts]
     print_sections(sections)
-    mesa = report['LP_NUM_THREADS']
-    where = 'on the calling thread' if mesa == '0' else f'with {mesa} threads'
     notes = [context_line(results, context) for context in results.contexts] + limit_line(results)
-    notes.append(f'- Mesa\'s software renderer draws {where} (LP_NUM_THREADS={mesa})')
+    if any(context['is_software'] for context in results.contexts):
+        mesa = report['LP_NUM_THREADS']
+        where = 'on the calling thread' if mesa == '0' else f'with {mesa} threads'
+        notes.append(f'- Mesa\'s software renderer draws {where} (LP_NUM_THREADS={mesa})')
     print('\n'.join(notes + [f'- {note}' for note in report['notes']]))
 
 

@@ -7,8 +7,9 @@ RESULTS.json  of raster_benchmark, backend_benchmark or pipeline.py, as scripts/
 --write       also puts the tables into README.md, in the place of those there
 
 README.md has a block for each of these programs, between the lines <!-- begin PROGRAM --> and
-<!-- end PROGRAM -->: where the results are stored, then what the program's table script prints.
-What stands around the blocks is written by hand.
+<!-- end PROGRAM -->: where the results are stored, then what the program's table script prints. Of
+backend_benchmark and of pipeline there is a second one, PROGRAM_gpu, for results with a GPU. What
+stands around the blocks is written by hand.
 """
 import argparse
 import json
@@ -23,19 +24,29 @@ TABLES = {'raster_benchmark': ['table.py'], 'backend_benchmark': ['backend_table
           'pipeline': ['pipeline.py', '--table']}
 
 
-def program_of(path):
+def has_gpu(report):
+    """Whether something was drawn by other than the processor and Mesa's software renderer."""
+    renderers = [row.get('renderer', '') for row in report['rows']]
+    renderers += [context['renderer'] for context in report.get('contexts', [])]
+    return any(name and not name.startswith('cpu') and 'llvmpipe' not in name
+               for name in renderers)
+
+
+def block_name(path):
+    """PROGRAM or PROGRAM_gpu."""
     try:
         with open(path, encoding='utf-8') as file:
-            program = json.load(file).get('program')
+            report = json.load(file)
+        program = report.get('program')
     except (OSError, AttributeError, json.JSONDecodeError) as error:
         sys.exit(f'readme.py: {path}: {error}')
     if program not in TABLES:
         sys.exit(f'readme.py: {path}: no results of {", ".join(TABLES)}')
-    return program
+    return f'{program}_gpu' if has_gpu(report) else program
 
 
-def block_of(program, path):
-    script, *options = TABLES[program]
+def block_of(name, path):
+    script, *options = TABLES[name.removesuffix('_gpu')]
     done = subprocess.run([os.path.join(HERE, script), *options, path], stdout=subprocess.PIPE,
                           text=True, check=False)
     if done.returncode != 0:
@@ -44,8 +55,8 @@ def block_of(program, path):
     return f'Stored as [{link}]({link}): {done.stdout.rstrip()}'
 
 
-def replaced(text, program, block):
-    begin, end = (f'<!-- {word} {program} -->\n' for word in ('begin', 'end'))
+def replaced(text, name, block):
+    begin, end = (f'<!-- {word} {name} -->\n' for word in ('begin', 'end'))
     if text.count(begin) != 1 or text.count(end) != 1 or text.index(begin) > text.index(end):
         sys.exit(f'readme.py: README.md has no block from {begin.strip()} to {end.strip()}')
     return text[:text.index(begin)] + begin + block + '\n' + text[text.index(end):]
@@ -56,15 +67,15 @@ def main():
     parser.add_argument('results', nargs='+')
     parser.add_argument('--write', action='store_true', help='also puts the tables into README.md')
     arguments = parser.parse_args()
-    programs = [program_of(path) for path in arguments.results]
-    blocks = [block_of(*both) for both in zip(programs, map(os.path.abspath, arguments.results))]
+    names = [block_name(path) for path in arguments.results]
+    blocks = [block_of(*both) for both in zip(names, map(os.path.abspath, arguments.results))]
     print('\n\n'.join(blocks))
     if not arguments.write:
         return
     with open(README, encoding='utf-8') as file:
         text = file.read()
-    for program, block in zip(programs, blocks):
-        text = replaced(text, program, block)
+    for name, block in zip(names, blocks):
+        text = replaced(text, name, block)
     with open(README + '.part', 'w', encoding='utf-8') as file:
         file.write(text)
     os.replace(README + '.part', README)
