@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/finish/angle_defect.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/edge_changes.h"
 #include "core/finish/places_near.h"
@@ -39,7 +40,12 @@ constexpr double kLongEdge = 1.5;      ///< of the mean edge
 constexpr double kOneSide = 0.9;       ///< between the faces of an edge that may turn
 constexpr double kAngleGain = 0.005;
 constexpr int kRounds = 10;
-constexpr std::array kShares{1.0, 0.5};  ///< of the way, the first that is good
+constexpr double kRough = 1.0;      ///< radians around a spike, at least
+constexpr double kSmoother = 0.7;   ///< of them, at most, around a spike that was lowered
+constexpr double kClearGain = 0.7;  ///< kGain of a move that may leave a spike
+constexpr int kLowerings = 5;
+constexpr std::array kHeights{0.75, 0.5, 0.25, 0.0};  ///< of a spike over its neighbours
+constexpr std::array kShares{1.0, 0.5};               ///< of the way, the first that is good
 constexpr std::uint32_t kNone = CornerTable::kNone;
 
 PointGrid grid_of(const std::vector<Vec3>& places, double cell) {
@@ -75,12 +81,14 @@ class Reacher {
           const ReachPointsOptions& options)
       : positions_(mesh.positions),
         mesh_(mesh),
+        all_points_(points),
         points_(std::move(points)),
         cloud_(cloud),
         options_(options),
         short_(too_short),
         table_(mesh.triangles, mesh.positions.size()),
-        is_hopeless_(mesh.positions.size(), 0) {}
+        is_hopeless_(mesh.positions.size(), 0),
+        is_moved_(mesh.positions.size(), 0) {}
 
   /// Vertices of a round.
   struct Moves {
@@ -105,8 +113,10 @@ class Reacher {
     }
     const std::vector<std::uint32_t> tried = moved;
     take_back_crossing(before, moved);
-    for (const std::uint32_t v : moved)
+    for (const std::uint32_t v : moved) {
+      is_moved_[v] = 1;
       for_each_around(v, [&](std::uint32_t w) { is_hopeless_[w] = 0; });
+    }
     for (const std::uint32_t v : moved)
       split_long_edges(v);
     for (const std::uint32_t v : moved)
@@ -116,7 +126,76 @@ class Reacher {
     return {.tried = tried.size(), .moved = moved.size()};
   }
 
+  /// Takes vertices that moved, and now stick out alone, back toward their neighbours where that
+  /// costs little of what they gained.
+  void lower_spikes() {
+    for (int round = 0; round < kLowerings; ++round) {
+      const std::vector<std::uint32_t> spikes = find_spikes();
+      if (spikes.empty()) return;
+      const PointsOnFaces on(mesh_, table_, all_points_, kReach * options_.pixel_size);
+      const std::vector<Vec3> before = positions_;
+      std::vector<std::uint32_t> lowered;
+      for (const std::uint32_t v : spikes) {
+        if (lower(on, v)) lowered.push_back(v);
+      }
+      take_back_crossing(before, lowered);
+      if (lowered.empty()) return;
+    }
+  }
+
  private:
+  /// Of the vertices that moved; the roughest first.
+  [[nodiscard]] std::vector<std::uint32_t> find_spikes() const {
+    std::vector<std::pair<double, std::uint32_t>> spikes;
+    for (std::uint32_t v = 0; v < is_moved_.size(); ++v) {
+      if (is_moved_[v] == 0 || table_.is_boundary(v)) continue;
+      const double rough = roughness_around(table_, positions_, v);
+      if (rough > kRough) spikes.emplace_back(-rough, v);
+    }
+    std::sort(spikes.begin(), spikes.end());
+    std::vector<std::uint32_t> sorted;
+    sorted.reserve(spikes.size());
+    for (const auto& [rough, v] : spikes)
+      sorted.push_back(v);
+    return sorted;
+  }
+
+  /// @return whether the vertex got smoother
+  bool lower(const PointsOnFaces& on, std::uint32_t v) {
+    const double rough = roughness_around(table_, positions_, v);
+    if (rough <= kRough) return false;  // since a neighbour was lowered
+    const Vec3 place = at(v);
+    const Vec3 foot = mean_of_neighbors(v);
+    const std::vector<NearPoint> near = points_around(on, v);
+    const double most_error = error_around(v, near) / kClearGain;
+    const double sharpest = std::min(sharpest_around(v), kSharp);
+    double least = kSmoother * rough;
+    Vec3 best = place;
+    for (const double height : kHeights) {
+      positions_[v] = foot + height * (place - foot);
+      const double now = roughness_around(table_, positions_, v);
+      if (now >= least || sharpest_around(v) < sharpest || is_folded(v) ||
+          error_around(v, near) > most_error) {
+        continue;
+      }
+      best = at(v);
+      least = now;
+      if (now <= kRough) break;
+    }
+    positions_[v] = best;
+    return best != place;
+  }
+
+  [[nodiscard]] Vec3 mean_of_neighbors(std::uint32_t v) const {
+    Vec3 sum{0.0};
+    double count = 0.0;
+    table_.for_each_neighbor(v, [&](std::uint32_t w) {
+      sum += at(w);
+      count += 1.0;
+    });
+    return sum / count;
+  }
+
   /// What is far from vertices that were to move is as hopeless as it was.
   void keep_points_near(const std::vector<std::uint32_t>& tried) {
     std::vector<Vec3> places;
@@ -318,6 +397,7 @@ class Reacher {
       table_.split_edge(corner);
       positions_.push_back(0.5 * (at(v) + at(w)));
       is_hopeless_.push_back(0);
+      is_moved_.push_back(1);
     }
   }
 
@@ -348,12 +428,14 @@ class Reacher {
 
   std::vector<Vec3>& positions_;
   TriangleMesh& mesh_;
-  std::vector<Vec3> points_;
+  std::vector<Vec3> all_points_;
+  std::vector<Vec3> points_;  ///< those that may lead on
   const PointGrid& cloud_;
   const ReachPointsOptions& options_;
   double short_;
   CornerTable table_;
   std::vector<std::uint8_t> is_hopeless_;  ///< vertices that have no good move as things are
+  std::vector<std::uint8_t> is_moved_;     ///< or came when an edge of those was split
 };
 
 }  // namespace
@@ -379,7 +461,10 @@ std::size_t reach_points(TriangleMesh& mesh, const PointGrid& cloud,
     if (tried == 0) break;
     moves += moved;
   }
-  if (moves > 0) put_back(std::move(part), mesh);
+  if (moves > 0) {
+    reacher.lower_spikes();
+    put_back(std::move(part), mesh);
+  }
   return moves;
 }
 

@@ -22,9 +22,12 @@ struct ReachPointsOptions {
 /// fall if it is under 11 degrees, no face folds over, and no more centroids and middles of sides
 /// lie in the air. Moves by which faces cross are taken back. Edges that got long are split, and
 /// edges turned within a side for better angles, now and then so that faces cross
-/// (core/finish/separate.h); so the next round gets farther. Clouds with noise of over h / 8 are
-/// left alone. The topology and the boundary stay. Cost: in up to ten rounds the points within 2 h
-/// of those to be reached, fewer with each, and the faces within 8 h.
+/// (core/finish/separate.h); so the next round gets farther. At last single vertices that stick out
+/// of their surroundings (core/finish/angle_defect.h) go back toward their neighbours, where the
+/// points around do not clearly (by 30 %) speak for them: where scans lie in layers, the farthest
+/// layer has a few points here and there. Clouds with noise of over h / 8 are left alone. The
+/// topology and the boundary stay. Cost: in up to ten rounds the points within 2 h of those to be
+/// reached, fewer with each, and the faces within 8 h.
 /// @return moves that were made
 /// @pre oriented, manifold (core/finish/clean_topology.h); nothing crosses
 std::size_t reach_points(TriangleMesh& mesh, const PointGrid& cloud,

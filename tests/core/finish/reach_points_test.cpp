@@ -4,8 +4,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
+#include "core/finish/angle_defect.h"
 #include "core/finish/corner_table.h"
 #include "core/mesh/coverage.h"
 #include "core/mesh/mesh_report.h"
@@ -96,6 +98,34 @@ TEST_CASE("of a noisy cloud no point is reached for") {
   ReachPointsOptions noisy = kOptions;
   noisy.noise = 0.2 * kH;
   CHECK(reach_points(mesh, grid_of(points_of(double_cone(0.0), 7)), noisy) == 0);
+}
+
+TEST_CASE("where a few points of a rim lie farther out no vertex sticks out alone") {
+  const std::uint64_t seed = GENERATE(1U, 2U, 3U);
+  CAPTURE(seed);
+  const TriangleSoup whole = double_cone(0.0);
+  std::vector<Vec3> points = points_of(whole, seed);
+  shapes::Random random(seed + 100);  // not the sequence that sampled
+  for (Vec3& p : points)
+    p += 0.2 * kH * Vec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+  constexpr int kPlaces = 12;
+  for (int i = 0; i < 2 * kPlaces; ++i) {
+    const double turn = 2.0 * std::numbers::pi / kPlaces * (i % kPlaces) + random.between(0, 0.01);
+    const double radius = kRadius + random.between(0.26, 0.32) * kH;
+    points.emplace_back(radius * std::cos(turn), radius * std::sin(turn), 0.0);
+  }
+  TriangleMesh mesh = shapes::to_mesh(whole);
+  const auto roughest = [&] {
+    const CornerTable table(mesh.triangles, mesh.positions.size());
+    double most = 0.0;
+    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
+      most = std::max(most, roughness_around(table, mesh.positions, v));
+    return most;
+  };
+  REQUIRE(roughest() < 0.1);
+  REQUIRE(reach_points(mesh, grid_of(points), kOptions) >= kPlaces);
+  CHECK(roughest() < 1.0);
+  CHECK(self_intersections(mesh).empty());
 }
 
 TEST_CASE("a boundary stays where a rim that runs into it is brought out") {
