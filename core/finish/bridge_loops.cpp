@@ -27,6 +27,9 @@ constexpr double kBeside = 0.65;
 /// Cosines: between the two faces of a bridge, and between them and the faces beside it.
 constexpr double kMinCosineInside = 0.3;
 constexpr double kMinCosineBeside = -0.3;
+constexpr double kMinCosineAtRim = -0.995;
+constexpr double kAllAround =
+    0.9;  ///< of the vertices of two loops that part the sheets of a blade
 
 class Bridger {
  public:
@@ -52,6 +55,7 @@ class Bridger {
     for (const std::span<const LoopNeighbors> pairs : loops_side_by_side(neighbors, loops_)) {
       if (!are_free(pairs.front())) continue;
       between_.clear();
+      may_be_rim_ = are_beside_all_around(pairs);
       if (!is_crack(pairs) || !bridge_one(pairs)) continue;
       note_joined(pairs.front());
       ++bridges;
@@ -173,6 +177,23 @@ class Bridger {
     return 2 * shown >= wide;
   }
 
+  [[nodiscard]] bool are_beside_all_around(std::span<const LoopNeighbors> pairs) const {
+    const std::size_t count =
+        loops_[pairs.front().loop_a].corners.size() + loops_[pairs.front().loop_b].corners.size();
+    return static_cast<double>(pairs.size()) >= kAllAround * static_cast<double>(count);
+  }
+
+  /// Whether a face with this normal may follow on the face of a border edge: what turns back on it
+  /// is the rim of a blade if the sheet that it leads to, with the vertex `across`, lies behind; in
+  /// front it would close a gap.
+  [[nodiscard]] bool may_turn(std::uint32_t edge, const Vec3& normal, std::uint32_t across) const {
+    const Vec3 beside = normal_of(table_.triangle(edge / 3));
+    const double cosine = glm::dot(normal, beside);
+    if (cosine >= kMinCosineBeside) return true;
+    const Vec3 to = mesh_.positions[across] - mesh_.positions[table_.head(edge)];
+    return may_be_rim_ && cosine >= kMinCosineAtRim && glm::dot(to, beside) < 0.0;
+  }
+
   /// Tries the pairs of two loops, the nearest first.
   bool bridge_one(std::span<const LoopNeighbors> pairs) {
     for (const LoopNeighbors& pair : pairs) {
@@ -187,8 +208,7 @@ class Bridger {
       const Triangle first{a, a2, b}, second{a2, b2, b};
       const Vec3 n1 = normal_of(first), n2 = normal_of(second);
       if (glm::dot(n1, n2) < kMinCosineInside) continue;
-      if (glm::dot(n1, normal_of(table_.triangle(edge_a / 3))) < kMinCosineBeside) continue;
-      if (glm::dot(n2, normal_of(table_.triangle(edge_b / 3))) < kMinCosineBeside) continue;
+      if (!may_turn(edge_a, n1, b) || !may_turn(edge_b, n2, a)) continue;
       if (glm::length(mesh_.positions[a2] - mesh_.positions[b2]) > kMaxBridgeLength * h_) continue;
       if (!is_shown(a, b) || !is_shown(a2, b) || !is_shown(a2, b2)) continue;
       if (!is_in_order(pair)) continue;
@@ -209,6 +229,7 @@ class Bridger {
   const std::vector<std::uint32_t>& component_;
   std::vector<std::uint8_t> is_bridged_;  ///< of loops
   std::vector<std::uint32_t> joined_;     ///< one name for all components that bridges joined
+  bool may_be_rim_ = false;               ///< what parts the two loops that are joined
   std::vector<LoopNeighbors> between_;    ///< the two loops that are joined: bridges so far
 };
 

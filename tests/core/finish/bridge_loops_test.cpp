@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "core/finish/finish.h"
@@ -125,6 +126,24 @@ TEST_CASE("two walls that face each other two pixels apart are not bridged", "[f
   }
   CHECK(bridge_loops(mesh, pieces_of(mesh), PointGrid(points, Box{Vec3(-14.0), Vec3(14.0)}, 0.7),
                      1.0) == 0);
+}
+
+TEST_CASE("two sheets of a blade are joined where one reaches farther out, and of a gap not",
+          "[finish]") {
+  // A double cone with a rim of 25 degrees, whose upper sheet ends two pixels before the rim.
+  constexpr double kRadius = 20.0, kSlope = 0.2217;
+  const TriangleSoup blade = shapes::double_cone(kRadius, kSlope, 0.0, 110);
+  const auto points = shapes::to_points(shapes::sampled(blade, 12'000, 3));
+  const PointGrid cloud(points, Box{Vec3(-22.0), Vec3(22.0)}, 0.7);
+  TriangleMesh mesh = shapes::to_mesh(blade);
+  testing::cut_where(
+      mesh, [](const Vec3& p) { return p.z > 0.0 && std::hypot(p.x, p.y) > kRadius - 1.5; });
+  REQUIRE(pieces_of(mesh).loops.size() == 2);
+  TriangleMesh gap = mesh;
+  for (Triangle& t : gap.triangles)
+    std::swap(t[1], t[2]);
+  CHECK(bridge_loops(mesh, pieces_of(mesh), cloud, 1.0) == 1);
+  CHECK(bridge_loops(gap, pieces_of(gap), cloud, 1.0) == 0);
 }
 
 }  // namespace
