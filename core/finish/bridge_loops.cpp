@@ -28,8 +28,10 @@ constexpr double kBeside = 0.65;
 constexpr double kMinCosineInside = 0.3;
 constexpr double kMinCosineBeside = -0.3;
 constexpr double kMinCosineAtRim = -0.995;
-constexpr double kAllAround =
-    0.9;  ///< of the vertices of two loops that part the sheets of a blade
+/// Of the loops that part the sheets of a blade: vertices, and the share of them that are beside
+/// the other loop.
+constexpr std::size_t kLongRim = 40;
+constexpr double kAllAround = 0.9;
 
 class Bridger {
  public:
@@ -177,10 +179,13 @@ class Bridger {
     return 2 * shown >= wide;
   }
 
+  /// Whether two loops may be the sides of a rim: long ones, for around a hole of some pixels the
+  /// scraps of a scene face each other, too.
   [[nodiscard]] bool are_beside_all_around(std::span<const LoopNeighbors> pairs) const {
-    const std::size_t count =
-        loops_[pairs.front().loop_a].corners.size() + loops_[pairs.front().loop_b].corners.size();
-    return static_cast<double>(pairs.size()) >= kAllAround * static_cast<double>(count);
+    const std::size_t count_a = loops_[pairs.front().loop_a].corners.size();
+    const std::size_t count_b = loops_[pairs.front().loop_b].corners.size();
+    return std::min(count_a, count_b) >= kLongRim &&
+           static_cast<double>(pairs.size()) >= kAllAround * static_cast<double>(count_a + count_b);
   }
 
   /// Whether a face with this normal may follow on the face of a border edge: what turns back on it

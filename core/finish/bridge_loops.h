@@ -16,8 +16,9 @@ namespace rangezip {
 /// where it has narrow gaps not only on one side: the mean of those within h is no farther than
 /// 0.65 h; and at half of the places where the loops lie over 1.6 h apart. So two surfaces that
 /// face each other stay apart; nor does it turn back on a face beside it, unless the loops are
-/// beside each other all around, and the sheet that it leads to lies behind that face: the rim of a
-/// blade, where one side reaches farther out than the other. Positions stay.
+/// long (40 vertices) and beside each other all around, and the sheet that it leads to lies behind
+/// that face: the rim of a blade, where one side reaches farther out than the other. Positions
+/// stay.
 /// @param pieces of the mesh, as it is before
 /// @param cloud points of the cloud; may be empty: no evidence is asked for
 /// @param pixel_size h, model units; positive
