@@ -26,10 +26,10 @@ TABLES = {'raster_benchmark': ['table.py'], 'backend_benchmark': ['backend_table
 
 def has_gpu(report):
     """Whether something was drawn by other than the processor and Mesa's software renderer."""
-    renderers = [row.get('renderer', '') for row in report['rows']]
-    renderers += [context['renderer'] for context in report.get('contexts', [])]
-    return any(name and not name.startswith('cpu') and 'llvmpipe' not in name
-               for name in renderers)
+    if 'contexts' in report:
+        return any(not context['is_software'] for context in report['contexts'])
+    renderers = [row.get('renderer', 'cpu') for row in report['rows']]
+    return any(not name.startswith('cpu') and 'llvmpipe' not in name for name in renderers)
 
 
 def block_name(path):

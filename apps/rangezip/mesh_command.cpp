@@ -16,13 +16,13 @@
 #include "apps/rangezip/outputs.h"
 #include "apps/rangezip/referee.h"
 #include "apps/rangezip/report_json.h"
-#include "apps/rangezip/stage_clock.h"
 #include "apps/rangezip/values.h"
 #include "apps/rangezip/verify.h"
 #include "core/base/parallel.h"
 #include "core/io/mesh_file.h"
 #include "core/io/session_file.h"
 #include "core/reconstruct/reconstruct.h"
+#include "core/reconstruct/stage_clock.h"
 
 namespace rangezip::app {
 

@@ -1,9 +1,7 @@
 #include "core/reconstruct/reconstruct.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <optional>
 #include <string>
@@ -20,10 +18,12 @@
 #include "core/plan/spacing.h"
 #include "core/plan/view_planner.h"
 #include "core/reconstruct/dense_places.h"
+#include "core/reconstruct/excess_search.h"
 #include "core/reconstruct/lost_points.h"
 #include "core/reconstruct/papered_holes.h"
 #include "core/reconstruct/resolution.h"
 #include "core/reconstruct/scan_recipe.h"
+#include "core/reconstruct/stage_clock.h"
 
 namespace rangezip {
 
@@ -74,30 +74,6 @@ constexpr double kCheckShare = 0.95;
 constexpr double kCountTolerance = 0.025;  ///< of the triangles asked for
 constexpr int kSizeRounds = 8;             ///< with other pixels, until there are as many
 
-/// Wall and processor time of consecutive stages.
-class StageClock {
- public:
-  explicit StageClock(std::vector<StageTime>& stages) : stages_(stages) { restart(); }
-
-  /// Books the time since the last call to `stage`.
-  void finish(const char* stage) {
-    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_start_;
-    const double cpu = static_cast<double>(std::clock() - cpu_start_) / CLOCKS_PER_SEC;
-    stages_.push_back({stage, wall.count(), cpu});
-    restart();
-  }
-
- private:
-  void restart() {
-    wall_start_ = std::chrono::steady_clock::now();
-    cpu_start_ = std::clock();
-  }
-
-  std::vector<StageTime>& stages_;
-  std::chrono::steady_clock::time_point wall_start_;
-  std::clock_t cpu_start_ = 0;
-};
-
 /// A part of the caller's progress bar, all of it one stage.
 Progress part_of(const Progress& whole, const char* stage, double begin, double end) {
   Progress named{.stop = whole.stop};
@@ -133,7 +109,6 @@ class Run {
         options_(options),
         excess_(excess),
         progress_(progress),
-        clock_(result_.report.stages),
         session_(scene, SessionOptions{.history_bytes = 0}) {}
 
   ReconstructResult result() {
@@ -185,7 +160,7 @@ class Run {
     is_of_cloud_ = resolution.is_of_cloud;
     is_clean_ = resolution.noise <= kMaxHoleNoise * recipe_.pixel_size;
     result_.report.pixel_size = recipe_.pixel_size;
-    clock_.finish("resolution");
+    book("resolution");
 
     ViewPlanOptions plan_options{.one_sided = recipe_.one_sided};
     if (options_.views) plan_options.max_views = *options_.views;
@@ -194,7 +169,7 @@ class Run {
     result_.report.views = plan.directions;
     result_.report.planned_views = plan.directions.size();
     if (!plan.coverage.empty()) result_.report.planned_coverage = plan.coverage.back();
-    clock_.finish("plan views");
+    book("plan views");
   }
 
   void scan_planned_views() {
@@ -205,7 +180,7 @@ class Run {
       apply(planned_scan(recipe_, result_.report.views[view], static_cast<std::uint32_t>(view)),
             part_of(progress_, "scan", begin, begin + step));
     }
-    clock_.finish("scan");
+    book("scan");
   }
 
   /// Samples of places farther from the mesh than a pixel side, out of kJudgedSamples.
@@ -238,7 +213,7 @@ class Run {
     // Where contours lie apart every face is far from points, and none across a gap can be told.
     has_narrow_gaps_ = share_of(uncovered) >= kNarrowShare && recipe_.gap == 0.0;
     if (has_narrow_gaps_) scan_narrow_gaps();
-    clock_.finish("uncovered");
+    book("uncovered");
   }
 
   void scan_narrow_gaps() {
@@ -260,7 +235,7 @@ class Run {
 
   void drop_unsupported_in_gaps() {
     if (has_narrow_gaps_) drop_unsupported();
-    clock_.finish("unsupported");
+    book("unsupported");
   }
 
   /// Faces across gaps hide what lies in them, make handles, and join what is apart.
@@ -276,7 +251,7 @@ class Run {
       if (directions.empty()) break;
       scan_from(directions, recipe_, fill_scan);
     }
-    clock_.finish("fill views");
+    book("fill views");
   }
 
   [[nodiscard]] bool is_plain_cloud() const {
@@ -311,7 +286,7 @@ class Run {
         scan_from(views_of(targets, recipe, kCoverSamples, kMinNewPoints), recipe, fill_scan);
       recover(uncovered, dense.places);
     }
-    clock_.finish("dense places");
+    book("dense places");
   }
 
   /// Where scans have papered over holes, the mesh goes, and the places are scanned again with
@@ -329,7 +304,7 @@ class Run {
       targets = left_out_points(holes.points, *session_.mesh(), kLeftOutOfHole * h);
     }
     recover(uncovered, holes.places);
-    clock_.finish("papered holes");
+    book("papered holes");
   }
 
   /// Takes the mesh off these places. @return how they are scanned again
@@ -414,7 +389,7 @@ class Run {
       command.vote = vote_on_faces();
       apply(command, part_of(progress_, "finish", kFinishShare, kCheckShare));
     }
-    clock_.finish("finish");
+    book("finish");
   }
 
   void check_result() {
@@ -429,7 +404,13 @@ class Run {
                        report.coverage = report_coverage(seen, *mesh, recipe_.pixel_size);
                        result_.mesh = *mesh;
                      });
-    clock_.finish("check");
+    book("check");
+  }
+
+  /// Books the time since the stage before.
+  void book(const char* stage) {
+    result_.report.stages.push_back(clock_.stage(stage));
+    clock_ = StageClock();
   }
 
   const Scene& scene_;
@@ -447,26 +428,6 @@ class Run {
   double fill_share_ = kFillShare;  ///< of the progress, so far
   bool has_narrow_gaps_ = false;    ///< that the planned views did not reach
   std::vector<Vec3> samples_;       ///< points, then area samples of polygons
-};
-
-/// Looks for the excess (see choose_resolution()) that pixels have to be chosen for.
-class ExcessSearch {
- public:
-  [[nodiscard]] double excess() const { return excess_; }
-
-  /// @param ratio of the triangles that there are to those that are wanted, positive
-  void go_on_from(double ratio) {
-    (ratio > 1.0 ? too_many_ : too_few_) = excess_;
-    excess_ *= ratio;
-    if (!too_many_ || !too_few_) return;
-    const auto [low, high] = std::minmax(*too_many_, *too_few_);
-    if (!(excess_ > low && excess_ < high)) excess_ = std::sqrt(low * high);
-  }
-
- private:
-  double excess_ = 1.0;
-  std::optional<double> too_many_;  ///< the latest that gave more than are wanted
-  std::optional<double> too_few_;   ///< the latest that gave fewer
 };
 
 /// How many triangles a mesh of pixels has depends on how the surface lies to the views that win,

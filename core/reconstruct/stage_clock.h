@@ -3,10 +3,11 @@
 #include <chrono>
 #include <ctime>
 #include <string>
+#include <utility>
 
 #include "core/reconstruct/reconstruct.h"
 
-namespace rangezip::app {
+namespace rangezip {
 
 /// Wall and processor time since it was made.
 class StageClock {
@@ -22,4 +23,4 @@ class StageClock {
   std::clock_t cpu_start_ = std::clock();
 };
 
-}  // namespace rangezip::app
+}  // namespace rangezip
