@@ -99,6 +99,13 @@ std::vector<BorderGap> find_border_gaps(const TriangleMesh& mesh, const CornerTa
   for (std::uint32_t c = 0; c < table.corner_count(); ++c) {
     if (!table.is_deleted(c / 3) && table.across(c) == CornerTable::kNone) border.push_back(c);
   }
+  return find_border_gaps(mesh, table, faces, cloud, border, options);
+}
+
+std::vector<BorderGap> find_border_gaps(const TriangleMesh& mesh, const CornerTable& table,
+                                        const FaceGrid& faces, const PointGrid& cloud,
+                                        std::span<const std::uint32_t> border,
+                                        const BorderGapOptions& options) {
   const Finder finder(mesh, table, faces, cloud, options);
   std::vector<std::optional<BorderGap>> worst(border.size());
   parallel_for(border.size(), kEdgesPerBlock, [&](std::size_t begin, std::size_t end) {

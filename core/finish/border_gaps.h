@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/finish/corner_table.h"
@@ -39,6 +40,14 @@ struct BorderGapOptions {
 [[nodiscard]] std::vector<BorderGap> find_border_gaps(const TriangleMesh& mesh,
                                                       const CornerTable& table,
                                                       const FaceGrid& faces, const PointGrid& cloud,
+                                                      const BorderGapOptions& options);
+
+/// The same for some of the border edges.
+/// @param border their half-edges, without a face across
+[[nodiscard]] std::vector<BorderGap> find_border_gaps(const TriangleMesh& mesh,
+                                                      const CornerTable& table,
+                                                      const FaceGrid& faces, const PointGrid& cloud,
+                                                      std::span<const std::uint32_t> border,
                                                       const BorderGapOptions& options);
 
 }  // namespace rangezip

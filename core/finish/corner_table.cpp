@@ -27,31 +27,43 @@ CornerTable::CornerTable(const std::vector<Triangle>& triangles, std::size_t ver
   }
 }
 
+/// Calls visit(corner, vertex, head) for every half-edge.
+template <class Visit>
+void CornerTable::for_each_half_edge(const Visit& visit) const {
+  for (std::uint32_t c = 0; c < vertices_.size(); c += 3) {
+    const std::uint32_t u = vertices_[c], v = vertices_[c + 1], w = vertices_[c + 2];
+    visit(c, u, v);
+    visit(c + 1, v, w);
+    visit(c + 2, w, u);
+  }
+}
+
 /// Half-edges sorted by their lower vertex stand close to their opposites.
 void CornerTable::link_half_edges() {
   std::vector<std::uint32_t> starts(corner_of_.size() + 1, 0);
-  const auto low_of = [&](std::uint32_t c) { return std::min(vertex(c), head(c)); };
-  for (std::uint32_t c = 0; c < vertices_.size(); ++c)
-    ++starts[low_of(c) + 1];
+  for_each_half_edge([&](std::uint32_t, std::uint32_t from, std::uint32_t to) {
+    ++starts[std::min(from, to) + 1];
+  });
   for (std::size_t v = 1; v < starts.size(); ++v)
     starts[v] += starts[v - 1];
-  std::vector<std::uint32_t> sorted(vertices_.size());
+  std::vector<HalfEdge> sorted(vertices_.size());
   std::vector<std::uint32_t> place(starts.begin(), starts.end() - 1);
-  for (std::uint32_t c = 0; c < vertices_.size(); ++c)
-    sorted[place[low_of(c)]++] = c;
+  for_each_half_edge([&](std::uint32_t corner, std::uint32_t from, std::uint32_t to) {
+    sorted[place[std::min(from, to)]++] = {std::max(from, to), from < to, corner};
+  });
   // Half-edges with different lower vertices are never opposite, so blocks do not meet.
   parallel_for(corner_of_.size(), kVerticesPerBlock, [&](std::size_t begin, std::size_t end) {
     for (std::size_t low = begin; low < end; ++low)
-      link_opposites(std::span(sorted).subspan(starts[low], starts[low + 1] - starts[low]), low);
+      link_opposites(std::span(sorted).subspan(starts[low], starts[low + 1] - starts[low]));
   });
 }
 
 /// Links the half-edges of one lower vertex that are opposite.
-void CornerTable::link_opposites(std::span<const std::uint32_t> corners, std::size_t low) {
-  for (const std::uint32_t leaving : corners) {
-    if (vertex(leaving) != low) continue;
-    for (const std::uint32_t arriving : corners) {
-      if (head(arriving) == low && vertex(arriving) == head(leaving)) link(leaving, arriving);
+void CornerTable::link_opposites(std::span<const HalfEdge> edges) {
+  for (std::size_t i = 1; i < edges.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (edges[i].high == edges[j].high && edges[i].is_rising != edges[j].is_rising)
+        link(edges[i].corner, edges[j].corner);
     }
   }
 }

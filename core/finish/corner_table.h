@@ -120,8 +120,17 @@ class CornerTable {
   std::uint32_t split_edge(std::uint32_t corner);
 
  private:
+  /// What tells opposite half-edges among those with one lower vertex.
+  struct HalfEdge {
+    std::uint32_t high;  ///< the other vertex
+    bool is_rising;      ///< leads to it
+    std::uint32_t corner;
+  };
+
   void link_half_edges();
-  void link_opposites(std::span<const std::uint32_t> corners, std::size_t low);
+  template <class Visit>
+  void for_each_half_edge(const Visit& visit) const;
+  void link_opposites(std::span<const HalfEdge> edges);
   void link(std::uint32_t a, std::uint32_t b);
   void set_corner_of(std::uint32_t vertex, std::uint32_t some_corner);
   void remove(std::uint32_t face);

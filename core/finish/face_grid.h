@@ -53,9 +53,9 @@ class FaceGrid {
   /// The faces that meet a marked (1) cell.
   [[nodiscard]] std::vector<std::uint32_t> faces_in(
       const std::vector<std::uint8_t>& is_asked) const;
-  [[nodiscard]] Box box_of(std::uint32_t face) const;
 
   const TriangleMesh& mesh_;
+  std::vector<Box> boxes_;  // of the faces
   Vec3 origin_{0.0};
   double cells_per_unit_ = 1.0;
   Cell dims_{1, 1, 1};

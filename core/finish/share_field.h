@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "core/base/cubes.h"
@@ -29,6 +31,7 @@ class ShareField {
  private:
   double side_ = 1.0;
   std::vector<Cube> cubes_;
+  std::unordered_map<Cube, std::uint32_t, CubeHash> numbers_;  ///< of the cubes
   std::vector<double> shares_;
 };
 

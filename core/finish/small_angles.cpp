@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <utility>
 #include <vector>
@@ -205,6 +206,27 @@ struct Neighborhood {
   }
 };
 
+/// Of what tells whether faces may change.
+Box box_around(const TriangleMesh& mesh, const CornerTable& table,
+               std::span<const std::uint32_t> faces, double h) {
+  Box box;
+  for (const std::uint32_t f : faces) {
+    for (const std::uint32_t v : mesh.triangles[f])
+      table.for_each_neighbor(v, [&](std::uint32_t w) { box.add(mesh.positions[w]); });
+  }
+  return widened(box, kAround * h);
+}
+
+/// The faces that mends replace.
+std::vector<std::uint32_t> faces_gone(const std::vector<AngleMend>& mends) {
+  std::vector<std::uint32_t> gone;
+  for (const AngleMend& mend : mends)
+    gone.insert(gone.end(), mend.gone.begin(), mend.gone.end());
+  std::sort(gone.begin(), gone.end());
+  gone.erase(std::unique(gone.begin(), gone.end()), gone.end());
+  return gone;
+}
+
 /// A mesh after a mend, and which of its faces are new.
 struct Mended {
   TriangleMesh mesh;
@@ -214,20 +236,23 @@ struct Mended {
 /// The surroundings of a face, on which its mends are tried.
 class Spot {
  public:
+  /// @param gone the faces that these replace
   Spot(const TriangleMesh& mesh, const CornerTable& table, const Cubes& cubes,
-       const std::vector<AngleMend>& mends, const PointGrid& cloud, double h, double beyond)
-      : part_(mesh, cubes.near(box_around(mesh, table, mends, h))),
+       std::span<const std::uint32_t> gone, const PointGrid& cloud, double h, double beyond)
+      : part_(mesh, cubes.near(box_around(mesh, table, gone, h))),
         cloud_(cloud),
         h_(h),
         table_(part_.mesh.triangles, part_.mesh.positions.size()),
         faces_(part_.mesh, table_, kReach * h),
         is_changed_(part_.mesh.positions.size(), 0) {
-    for (const AngleMend& mend : mends) {
-      for (const std::uint32_t f : mend.gone) {
-        for (const std::uint32_t v : mesh.triangles[f])
-          is_changed_[part_.vertex(v)] = 1;
-      }
+    for (const std::uint32_t f : gone) {
+      for (const std::uint32_t v : mesh.triangles[f])
+        is_changed_[part_.vertex(v)] = 1;
     }
+    for (const Triangle& t : part_.mesh.triangles) {
+      if (has_flag(is_changed_, t)) near_change_.add(box_of(part_.mesh, t));
+    }
+    near_change_ = widened(near_change_, 2.0 * kReach * h);
     for (std::uint32_t v = 0; v < is_changed_.size(); ++v)
       is_at_border_ = is_at_border_ || (is_changed_[v] != 0 && table_.is_boundary(v));
     beyond_ = is_at_border_ ? std::max(beyond, farthest_beyond(part_.mesh, table_, faces_)) : 0.0;
@@ -245,18 +270,6 @@ class Spot {
   }
 
  private:
-  static Box box_around(const TriangleMesh& mesh, const CornerTable& table,
-                        const std::vector<AngleMend>& mends, double h) {
-    Box box;
-    for (const AngleMend& mend : mends) {
-      for (const std::uint32_t f : mend.gone) {
-        for (const std::uint32_t v : mesh.triangles[f])
-          table.for_each_neighbor(v, [&](std::uint32_t w) { box.add(mesh.positions[w]); });
-      }
-    }
-    return widened(box, kAround * h);
-  }
-
   [[nodiscard]] Mended apply(const AngleMend& mend) const {
     Mended mended{part_.mesh, {}};
     std::vector<std::uint8_t> goes(part_.faces.size(), 0);
@@ -276,12 +289,25 @@ class Spot {
   [[nodiscard]] double farthest_beyond(const TriangleMesh& mesh, const CornerTable& table,
                                        const FaceGrid& faces) const {
     double farthest = 0.0;
-    for (const BorderGap& gap :
-         find_border_gaps(mesh, table, faces, cloud_, {kReach * h_, kNegligible * h_})) {
+    for (const BorderGap& gap : find_border_gaps(mesh, table, faces, cloud_, border(mesh, table),
+                                                 {kReach * h_, kNegligible * h_})) {
       if (has_flag(is_changed_, table.triangle(gap.corner / 3)) || was_at_change(gap.point))
         farthest = std::max(farthest, gap.beyond);
     }
     return farthest;
+  }
+  /// The border edges beyond which such points may be: most of the others are where the
+  /// surroundings were cut out.
+  [[nodiscard]] std::vector<std::uint32_t> border(const TriangleMesh& mesh,
+                                                  const CornerTable& table) const {
+    std::vector<std::uint32_t> corners;
+    for (std::uint32_t c = 0; c < table.corner_count(); ++c) {
+      if (table.across(c) != kNone) continue;
+      const Triangle face = table.triangle(c / 3);
+      if (has_flag(is_changed_, face) || boxes_meet(near_change_, box_of(mesh, face)))
+        corners.push_back(c);
+    }
+    return corners;
   }
   [[nodiscard]] bool was_at_change(const Vec3& point) const {
     const std::uint32_t face = faces_.nearest_face(point, kReach * h_);
@@ -294,15 +320,31 @@ class Spot {
   CornerTable table_;
   FaceGrid faces_;
   std::vector<std::uint8_t> is_changed_;  // per position: a face around it may change
+  Box near_change_;                       // twice the reach around the faces that may
   bool is_at_border_ = false;
   double beyond_ = 0.0;  // how far points may be
+};
+
+/// Faces for which no mend was found, and the boxes of what was looked at: nothing is found in
+/// another round either as long as nothing there has changed.
+class Hopeless {
+ public:
+  void add(const Triangle& face, const Box& looked_at) { faces_.emplace(face, looked_at); }
+  [[nodiscard]] bool contains(const Triangle& face) const { return faces_.contains(face); }
+  void forget_near(const Cubes& changed) {
+    std::erase_if(faces_, [&](const auto& entry) { return !changed.near(entry.second).empty(); });
+  }
+
+ private:
+  std::map<Triangle, Box> faces_;
 };
 
 class Round {
  public:
   /// @param may_change per position
+  /// @param hopeless of this stage
   Round(TriangleMesh& mesh, const std::vector<std::uint8_t>& may_change, const PointGrid& cloud,
-        double h, const Stage& stage)
+        double h, const Stage& stage, Hopeless& hopeless)
       : mesh_(mesh),
         cloud_(cloud),
         h_(h),
@@ -311,10 +353,9 @@ class Round {
         options_{stage.max_turn, stage.border_way * h, stage.enough},
         table_(mesh.triangles, mesh.positions.size()),
         cubes_(cubes_of(mesh, h)),
-        is_busy_(may_change) {
-    for (std::uint8_t& flag : is_busy_)
-      flag = flag != 0 ? 0 : 1;
-  }
+        hopeless_(hopeless),
+        may_change_(may_change),
+        is_busy_(may_change.size(), 0) {}
 
   /// The smallest angles first; no two mends change faces around neighbours.
   /// @return number of faces mended
@@ -340,22 +381,45 @@ class Round {
  private:
   /// Chooses the best mend that the surroundings allow.
   void mend(std::uint32_t face) {
+    if (hopeless_.contains(mesh_.triangles[face])) return;
     std::vector<AngleMend> mends = angle_mends(face, mesh_.positions, table_, options_);
-    std::erase_if(mends, [&](const AngleMend& mend) {
-      return std::any_of(mend.gone.begin(), mend.gone.end(),
-                         [&](std::uint32_t f) { return has_flag(is_busy_, mesh_.triangles[f]); });
-    });
+    std::vector<std::uint32_t> looked_at = faces_gone(mends);
+    looked_at.push_back(face);
+    std::erase_if(mends, [&](const AngleMend& mend) { return !all_may_change(mend.gone); });
+    const std::size_t possible = mends.size();
+    std::erase_if(mends, [&](const AngleMend& mend) { return is_any_busy(mend.gone); });
+    const bool waits = mends.size() < possible;
     if (mends.size() > kMostTries) mends.resize(kMostTries);
-    if (mends.empty()) return;
-    const Spot spot(mesh_, table_, cubes_, mends, cloud_, h_, beyond_);
-    const auto best = std::find_if(mends.begin(), mends.end(),
-                                   [&](const AngleMend& mend) { return spot.allows(mend); });
-    if (best == mends.end()) return;
-    for (const std::uint32_t f : best->gone) {
+    auto best = mends.end();
+    if (!mends.empty()) {
+      const Spot spot(mesh_, table_, cubes_, faces_gone(mends), cloud_, h_, beyond_);
+      best = std::find_if(mends.begin(), mends.end(),
+                          [&](const AngleMend& mend) { return spot.allows(mend); });
+    }
+    if (best != mends.end()) {
+      choose(std::move(*best));
+    } else if (!waits) {
+      hopeless_.add(mesh_.triangles[face], box_around(mesh_, table_, looked_at, h_));
+    }
+  }
+
+  [[nodiscard]] bool all_may_change(const std::vector<std::uint32_t>& faces) const {
+    return std::all_of(faces.begin(), faces.end(), [&](std::uint32_t f) {
+      const Triangle& t = mesh_.triangles[f];
+      return (may_change_[t[0]] & may_change_[t[1]] & may_change_[t[2]]) != 0;
+    });
+  }
+  [[nodiscard]] bool is_any_busy(const std::vector<std::uint32_t>& faces) const {
+    return std::any_of(faces.begin(), faces.end(),
+                       [&](std::uint32_t f) { return has_flag(is_busy_, mesh_.triangles[f]); });
+  }
+
+  void choose(AngleMend mend) {
+    for (const std::uint32_t f : mend.gone) {
       for (const std::uint32_t v : mesh_.triangles[f])
         table_.for_each_neighbor(v, [&](std::uint32_t w) { is_busy_[w] = 1; });
     }
-    chosen_.push_back(std::move(*best));
+    chosen_.push_back(std::move(mend));
   }
 
   /// Makes all changes, unless some of the faces that come cross each other. @return flags of those
@@ -383,7 +447,16 @@ class Round {
         if (f >= first) fails[mend_of[f - first]] = 1;
       }
     }
-    if (std::find(fails.begin(), fails.end(), 1) == fails.end()) mesh_ = std::move(changed);
+    if (std::find(fails.begin(), fails.end(), 1) != fails.end()) return fails;
+    Cubes places(bounds_of(mesh_).lower, kCube * h_);
+    for (std::size_t f = 0; f < goes.size(); ++f) {
+      if (goes[f] != 0) places.add(box_of(mesh_, mesh_.triangles[f]), 0);
+    }
+    for (const std::uint32_t f : faces)
+      places.add(box_of(changed, changed.triangles[f]), 0);
+    places.sort();
+    hopeless_.forget_near(places);
+    mesh_ = std::move(changed);
     return fails;
   }
 
@@ -395,7 +468,9 @@ class Round {
   AngleMendOptions options_;
   CornerTable table_;
   Cubes cubes_;
-  std::vector<std::uint8_t> is_busy_;  // per position: it or what is around changes, or must not
+  Hopeless& hopeless_;
+  const std::vector<std::uint8_t>& may_change_;
+  std::vector<std::uint8_t> is_busy_;  // per position: it or what is around changes in this round
   std::vector<AngleMend> chosen_;
 };
 
@@ -412,8 +487,9 @@ std::size_t mend(TriangleMesh& mesh, const PointGrid& cloud, double h,
     may_change[v] = flags[part.vertices[v]];
   std::size_t count = 0;
   for (const Stage& stage : stages) {
+    Hopeless hopeless;
     for (int round = 0; round < kRounds; ++round) {
-      const std::size_t mended = Round(part.mesh, may_change, cloud, h, stage).run();
+      const std::size_t mended = Round(part.mesh, may_change, cloud, h, stage, hopeless).run();
       if (mended == 0) break;
       count += mended;
     }

@@ -106,6 +106,16 @@ class CellGrid {
   std::array<int, 3> dims_{1, 1, 1};
 };
 
+/// Of their first sides.
+double mean_side(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles) {
+  double total = 0.0;
+  for (const std::uint32_t i : triangles) {
+    const Triangle& t = mesh.triangles[i];
+    total += glm::length(mesh.positions[t[1]] - mesh.positions[t[0]]);
+  }
+  return total / static_cast<double>(std::max<std::size_t>(1, triangles.size()));
+}
+
 /// Box, state and mean side of the triangles that take part, by their rank among these.
 class Triangles {
  public:
@@ -134,14 +144,7 @@ class Triangles {
   [[nodiscard]] bool meet(std::uint32_t i, std::uint32_t j) const {
     return overlap(mesh_, mesh_.triangles[numbers_[i]], mesh_.triangles[numbers_[j]]);
   }
-  [[nodiscard]] double mean_side() const {
-    double total = 0.0;
-    for (const std::uint32_t number : numbers_) {
-      const Triangle& t = mesh_.triangles[number];
-      total += glm::length(mesh_.positions[t[1]] - mesh_.positions[t[0]]);
-    }
-    return total / static_cast<double>(std::max<std::size_t>(1, size()));
-  }
+  [[nodiscard]] double mean_side() const { return rangezip::mean_side(mesh_, numbers_); }
 
  private:
   const TriangleMesh& mesh_;
@@ -320,16 +323,35 @@ std::vector<std::uint32_t> all_of(const TriangleMesh& mesh) {
   return numbers;
 }
 
-/// Those in the box around the changed ones.
+/// Whether a cell is marked that the part of a box in the bounds meets; of large boxes, yes.
+bool meets_marked(const CellGrid& grid, std::span<const std::uint8_t> marked, const Box& bounds,
+                  const Box& box) {
+  const CellRange range =
+      grid.range_of({glm::max(bounds.lower, box.lower), glm::min(bounds.upper, box.upper)});
+  if (range.count() > kLargeTriangleCells) return true;
+  std::uint8_t found = 0;
+  grid.for_each_cell(range, 0, grid.layers() - 1, [&](std::size_t cell) { found |= marked[cell]; });
+  return found != 0;
+}
+
+/// Those that come near one of the changed ones.
 std::vector<std::uint32_t> around(const TriangleMesh& mesh,
                                   std::span<const std::uint32_t> changed) {
   Box bounds;
   for (const std::uint32_t i : changed)
     bounds.add(box_of(mesh, mesh.triangles[i]));
+  const CellGrid grid(bounds, kSidesPerCell * mean_side(mesh, changed), mesh.triangles.size());
+  std::vector<std::uint8_t> marked(grid.cell_count(), 0);
+  for (const std::uint32_t i : changed) {
+    grid.for_each_cell(grid.range_of(box_of(mesh, mesh.triangles[i])), 0, grid.layers() - 1,
+                       [&](std::size_t cell) { marked[cell] = 1; });
+  }
   std::vector<std::uint8_t> is_near(mesh.triangles.size());
   parallel_for(is_near.size(), kTrianglesPerBlock, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      is_near[i] = boxes_meet(bounds, box_of(mesh, mesh.triangles[i])) ? 1 : 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Box box = box_of(mesh, mesh.triangles[i]);
+      is_near[i] = boxes_meet(bounds, box) && meets_marked(grid, marked, bounds, box) ? 1 : 0;
+    }
   });
   std::vector<std::uint32_t> numbers;
   for (std::uint32_t i = 0; i < is_near.size(); ++i) {

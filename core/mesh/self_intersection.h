@@ -19,7 +19,7 @@ namespace rangezip {
     const TriangleMesh& mesh);
 
 /// The same, only pairs with at least one triangle of `changed` (indices, any order). But for one
-/// look at every triangle, the cost is that of the triangles in the box around the changed ones.
+/// look at every triangle, the cost is that of the triangles near the changed ones.
 /// @param apart those of the changed ones that are known not to meet each other, as the triangles
 /// of
 ///     one range image; they are compared with all others
