@@ -34,6 +34,7 @@
 #include "core/finish/separate.h"
 #include "core/finish/sharpen.h"
 #include "core/finish/small_angles.h"
+#include "core/finish/take_back_losses.h"
 #include "core/finish/thin_handles.h"
 #include "core/finish/unfold.h"
 #include "core/finish/unsupported_faces.h"
@@ -127,17 +128,11 @@ Pairs crossings_of(const TriangleMesh& mesh, const TriangleMesh* clean) {
   return self_intersections(mesh, find_face_changes(*clean, mesh).made);
 }
 
-/// Grows over what no scan has reached, and closes what is left open. Around what cannot be closed
-/// faces go: there it grows again, unless that leaves more open than there was: between noisy walls
-/// it may join one to the other.
-/// @param in_the_way RegrowOptions::in_the_way
-void grow_and_close(TriangleMesh& mesh, const Growth& growth, double in_the_way,
-                    FinishReport& report) {
+/// Where a repair left something open, faces around have gone: there it grows again, unless that
+/// leaves more open than there was: between noisy walls it may join one to the other.
+void grow_again(TriangleMesh& mesh, const Growth& growth, const RegrowOptions& grown,
+                FinishReport& report) {
   const auto& [given, cloud, points, options, progress] = growth;
-  const RegrowOptions grown{.pixel_size = options.pixel_size, .in_the_way = in_the_way};
-  if (options.regrow) report.regrown_faces += regrow(mesh, cloud, points, grown, progress);
-  repair(mesh, crossings_of(mesh, given), {}, points, options, report, progress);
-  if (report.regrown_faces == 0) return;
   for (int round = 1; round < kRegrowRounds; ++round) {
     const TriangleMesh clean = mesh;
     const FinishReport before = report;
@@ -152,6 +147,17 @@ void grow_and_close(TriangleMesh& mesh, const Growth& growth, double in_the_way,
     }
     report.regrown_faces += regrown;
   }
+}
+
+/// Grows over what no scan has reached, and closes what is left open.
+/// @param in_the_way RegrowOptions::in_the_way
+void grow_and_close(TriangleMesh& mesh, const Growth& growth, double in_the_way,
+                    FinishReport& report) {
+  const auto& [given, cloud, points, options, progress] = growth;
+  const RegrowOptions grown{.pixel_size = options.pixel_size, .in_the_way = in_the_way};
+  if (options.regrow) report.regrown_faces += regrow(mesh, cloud, points, grown, progress);
+  repair(mesh, crossings_of(mesh, given), {}, points, options, report, progress);
+  if (options.regrow) grow_again(mesh, growth, grown, report);
 }
 
 /// The same; where that parts what was one, as when the neck of a cavity is closed inside, once
@@ -187,7 +193,9 @@ void remove_thin_handles(TriangleMesh& mesh, const PointGrid& cloud, const Finis
     const std::size_t cut = cut_thin_handles(mesh, thin);
     if (cut == 0) return;
     report.cut_handles += cut;
+    const TriangleMesh open = mesh;
     repair(mesh, {}, {}, cloud, options, report, progress);
+    if (!options.narrow_gaps) take_back_losses(mesh, open, h);
   }
 }
 

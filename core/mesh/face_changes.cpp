@@ -131,9 +131,11 @@ FaceChanges find_face_changes(const TriangleMesh& before, const TriangleMesh& af
   return matcher.changes();
 }
 
-std::vector<std::uint32_t> find_new_faces(const TriangleMesh& before, const TriangleMesh& after) {
+TriangleMesh with_numbers_of(const TriangleMesh& before, const TriangleMesh& after) {
   const std::vector<std::uint32_t> known = vertices_by_place(before);
+  const bool has_sources = !before.sources.empty() && !after.sources.empty();
   TriangleMesh renumbered{before.positions, after.triangles, {}};
+  if (has_sources) renumbered.sources = before.sources;
   std::vector<std::uint32_t> number_of(after.positions.size());
   for (std::uint32_t v = 0; v < number_of.size(); ++v) {
     const Vec3& place = after.positions[v];
@@ -145,13 +147,18 @@ std::vector<std::uint32_t> find_new_faces(const TriangleMesh& before, const Tria
     } else {
       number_of[v] = static_cast<std::uint32_t>(renumbered.positions.size());
       renumbered.positions.push_back(place);
+      if (has_sources) renumbered.sources.push_back(after.sources[v]);
     }
   }
   for (Triangle& t : renumbered.triangles) {
     for (std::uint32_t& v : t)
       v = number_of[v];
   }
-  return find_face_changes(before, renumbered).made;
+  return renumbered;
+}
+
+std::vector<std::uint32_t> find_new_faces(const TriangleMesh& before, const TriangleMesh& after) {
+  return find_face_changes(before, with_numbers_of(before, after)).made;
 }
 
 }  // namespace rangezip

@@ -19,6 +19,11 @@ struct FaceChanges {
 /// @pre both are oriented: no directed edge in two faces
 [[nodiscard]] FaceChanges find_face_changes(const TriangleMesh& before, const TriangleMesh& after);
 
+/// A mesh after with the vertex numbers of the mesh before, to which vertices belong that lie at
+/// the same place; all others come after them. The faces keep their order. Sources stay if both
+/// have them. O(faces + vertices log vertices).
+[[nodiscard]] TriangleMesh with_numbers_of(const TriangleMesh& before, const TriangleMesh& after);
+
 /// The faces of a mesh after that were not in it before, where vertices may have new numbers: they
 /// are told by their places. O(faces + vertices log vertices).
 /// @pre both are oriented: no directed edge in two faces

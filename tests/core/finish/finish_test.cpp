@@ -12,6 +12,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/finish/bridge_loops.h"
+#include "core/mesh/coverage.h"
 #include "core/mesh/mesh_report.h"
 #include "core/mesh/self_intersection.h"
 #include "tests/core/finish/shapes.h"
@@ -270,6 +271,40 @@ TEST_CASE("what no scan has reached is closed, but for a hole of the object in i
   CHECK(report.boundary_loops == 1);
   CHECK(report.longest_loop > 20.0 * h);  // around what was left out: 8 pi h
   CHECK(report.longest_loop < 33.0 * h);
+}
+
+/// Evenly spread over a square of this side, in the plane of two axes.
+void add_square(std::vector<Vec3>& points, const Vec3& along, const Vec3& across, double side) {
+  constexpr double kSpacing = 0.4;
+  for (double s = -0.5 * side; s <= 0.5 * side; s += kSpacing) {
+    for (double t = -0.5 * side; t <= 0.5 * side; t += kSpacing)
+      points.push_back(s * along + t * across);
+  }
+}
+
+TEST_CASE("where a wall goes through another, the surface around stays") {
+  constexpr std::uint32_t kSide = 40, kWall = 16;
+  TriangleMesh mesh = shapes::square_sheet(kSide);
+  testing::cut_where(mesh,
+                     [](const Vec3& p) { return std::abs(p.x) < 0.5 && std::abs(p.y) < 9.5; });
+  TriangleMesh wall = shapes::square_sheet(kWall);
+  for (Vec3& p : wall.positions)
+    p = {0.0, p.x, p.y};
+  testing::append(mesh, wall);
+  std::vector<Vec3> cloud;
+  add_square(cloud, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, kSide);
+  const auto beside = [](const Vec3& p) { return std::abs(p.x) > 2.0; };
+  const std::vector<Vec3> floor = cloud;
+  add_square(cloud, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}, kWall);
+  const FinishOptions options{.method = FinishMethod::fast, .pixel_size = 1.0, .regrow = true};
+  const FinishResult result = finish(mesh, {cloud}, options);
+  require_clean(result.mesh);
+  const std::vector<std::uint8_t> is_covered = covered_points(floor, result.mesh, 0.5);
+  std::size_t lost = 0;
+  for (std::size_t i = 0; i < floor.size(); ++i)
+    lost += is_covered[i] == 0 && beside(floor[i]) ? 1 : 0;
+  CAPTURE(lost, floor.size());
+  CHECK(lost == 0);
 }
 
 /// The same mesh with its vertices and faces in another order.

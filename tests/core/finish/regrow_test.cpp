@@ -17,6 +17,7 @@
 namespace rangezip {
 namespace {
 
+using testing::append;
 using testing::uniform;
 
 constexpr double kH = 1.0;
@@ -46,13 +47,6 @@ TriangleMesh frame(double z, double hole, bool is_turned) {
   }
   remove_unused_vertices(mesh);
   return mesh;
-}
-
-void append(TriangleMesh& mesh, const TriangleMesh& other) {
-  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-  mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
-  for (const auto& [a, b, c] : other.triangles)
-    mesh.triangles.push_back({first + a, first + b, first + c});
 }
 
 void require_clean(const TriangleMesh& mesh) {

@@ -73,6 +73,14 @@ void cut_where(TriangleMesh& mesh, Inside inside) {
   remove_unused_vertices(mesh);
 }
 
+/// Adds another mesh, not joined.
+inline void append(TriangleMesh& mesh, const TriangleMesh& other) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), other.positions.begin(), other.positions.end());
+  for (const auto& [a, b, c] : other.triangles)
+    mesh.triangles.push_back({first + a, first + b, first + c});
+}
+
 /// The volume that a closed mesh encloses.
 inline double volume_of(const TriangleMesh& mesh) {
   double six = 0.0;

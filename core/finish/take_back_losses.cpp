@@ -1,0 +1,141 @@
+#include "core/finish/take_back_losses.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "core/finish/corner_table.h"
+#include "core/mesh/face_changes.h"
+#include "core/mesh/self_intersection.h"
+
+namespace rangezip {
+namespace {
+
+/// Of the surface that went around a loop: if more came, the loop is mostly closed.
+constexpr double kMostMade = 0.5;
+/// In square h: losing less is no worse than the cracks that were there.
+constexpr double kSmallLoss = 10.0;
+
+/// Which vertices hang together.
+class VertexSets {
+ public:
+  explicit VertexSets(std::size_t vertices) : parent_(vertices) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+  }
+  [[nodiscard]] std::uint32_t set_of(std::uint32_t v) {
+    while (parent_[v] != v)
+      v = parent_[v] = parent_[parent_[v]];
+    return v;
+  }
+  void join(const Triangle& face) {
+    const std::uint32_t set = set_of(face[0]);
+    parent_[set_of(face[1])] = set;
+    parent_[set_of(face[2])] = set;
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+std::vector<std::uint8_t> border_vertices(const TriangleMesh& mesh) {
+  const CornerTable table(mesh.triangles, mesh.positions.size());
+  std::vector<std::uint8_t> is_at_border(mesh.positions.size(), 0);
+  for (std::uint32_t c = 0; c < table.corner_count(); ++c) {
+    if (table.across(c) == CornerTable::kNone)
+      is_at_border[table.vertex(c)] = is_at_border[table.head(c)] = 1;
+  }
+  return is_at_border;
+}
+
+/// The changes from one mesh to another with the same vertices, by what hangs together.
+class Losses {
+ public:
+  Losses(const TriangleMesh& before, const TriangleMesh& after, double h)
+      : before_(before),
+        after_(after),
+        changes_(find_face_changes(before, after)),
+        sets_(after.positions.size()),
+        is_undone_(after.positions.size(), 0) {
+    for (const std::uint32_t f : changes_.gone)
+      sets_.join(before.triangles[f]);
+    for (const std::uint32_t f : changes_.made)
+      sets_.join(after.triangles[f]);
+    choose(kSmallLoss * h * h);
+  }
+
+  /// The mesh without the changes that were chosen, but for those that would cross others.
+  /// @return faces that came back
+  std::size_t undo(TriangleMesh& mesh) {
+    for (;;) {
+      std::vector<std::uint32_t> back;
+      mesh.triangles = undone(back);
+      const auto crossing = self_intersections(mesh, back);
+      if (crossing.empty()) return back.size();
+      for (const auto& [i, j] : crossing) {
+        for (const std::uint32_t f : {i, j}) {
+          if (f >= back.front()) is_undone_[sets_.set_of(mesh.triangles[f][0])] = 0;
+        }
+      }
+    }
+  }
+
+ private:
+  /// Sets at an open loop in which much more surface went than came.
+  /// @param least surface lost, square model units
+  void choose(double least) {
+    std::vector<double> gone(after_.positions.size(), 0.0), made = gone;
+    for (const std::uint32_t f : changes_.gone) {
+      const Triangle& t = before_.triangles[f];
+      gone[sets_.set_of(t[0])] += area_of_face(before_.positions, t);
+    }
+    for (const std::uint32_t f : changes_.made) {
+      const Triangle& t = after_.triangles[f];
+      made[sets_.set_of(t[0])] += area_of_face(after_.positions, t);
+    }
+    const std::vector<std::uint8_t> is_at_border = border_vertices(after_);
+    for (const std::uint32_t f : changes_.gone) {
+      for (const std::uint32_t v : before_.triangles[f]) {
+        const std::uint32_t set = sets_.set_of(v);
+        const bool is_much = made[set] <= kMostMade * gone[set] && gone[set] - made[set] >= least;
+        if (is_at_border[v] != 0 && is_much) is_undone_[set] = 1;
+      }
+    }
+  }
+
+  /// @param back set to the numbers of the faces that come back: the last ones
+  [[nodiscard]] std::vector<Triangle> undone(std::vector<std::uint32_t>& back) {
+    std::vector<std::uint8_t> goes(after_.triangles.size(), 0);
+    for (const std::uint32_t f : changes_.made)
+      goes[f] = is_undone_[sets_.set_of(after_.triangles[f][0])];
+    std::vector<Triangle> triangles = after_.triangles;
+    remove_triangles(triangles, goes);
+    for (const std::uint32_t f : changes_.gone) {
+      if (is_undone_[sets_.set_of(before_.triangles[f][0])] == 0) continue;
+      back.push_back(static_cast<std::uint32_t>(triangles.size()));
+      triangles.push_back(before_.triangles[f]);
+    }
+    return triangles;
+  }
+
+  const TriangleMesh& before_;
+  const TriangleMesh& after_;
+  FaceChanges changes_;
+  VertexSets sets_;
+  std::vector<std::uint8_t> is_undone_;  ///< of sets, by the vertex that names each
+};
+
+}  // namespace
+
+std::size_t take_back_losses(TriangleMesh& mesh, const TriangleMesh& before, double pixel_size) {
+  const TriangleMesh after = with_numbers_of(before, mesh);
+  TriangleMesh undone = after;
+  const std::size_t back = Losses(before, after, pixel_size).undo(undone);
+  if (back == 0) return 0;
+  mesh = std::move(undone);
+  remove_unused_vertices(mesh);
+  return back;
+}
+
+}  // namespace rangezip

@@ -1,0 +1,83 @@
+#include "core/finish/take_back_losses.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <vector>
+
+#include "core/mesh/mesh_report.h"
+#include "core/mesh/self_intersection.h"
+#include "tests/core/finish/shapes.h"
+#include "tests/support/shapes.h"
+
+namespace rangezip {
+namespace {
+
+constexpr double kH = 1.0;
+constexpr std::uint32_t kSide = 24;
+
+double reach_of(const Vec3& p) {
+  return std::max(std::abs(p.x), std::abs(p.y));
+}
+
+/// A square sheet without the faces that have a corner in the square up to this from its middle.
+TriangleMesh sheet_with_hole(double reach) {
+  TriangleMesh mesh = shapes::square_sheet(kSide);
+  testing::cut_where(mesh, [&](const Vec3& p) { return reach_of(p) < reach; });
+  return mesh;
+}
+
+double area_of(const TriangleMesh& mesh) {
+  double area = 0.0;
+  for (const Triangle& t : mesh.triangles)
+    area += area_of_face(mesh.positions, t);
+  return area;
+}
+
+/// Two faces that stand upright across the middle of the sheet, this far up and down.
+void add_post(TriangleMesh& mesh, double half) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (const auto& [x, z] : {std::pair{-half, -half}, {half, -half}, {half, half}, {-half, half}})
+    mesh.positions.emplace_back(x, 0.1, z);
+  mesh.triangles.push_back({first, first + 1, first + 2});
+  mesh.triangles.push_back({first, first + 2, first + 3});
+}
+
+TEST_CASE("what was cleared around a loop in vain comes back, whatever numbers vertices have",
+          "[finish]") {
+  const TriangleMesh crack = sheet_with_hole(0.5);
+  TriangleMesh mesh = sheet_with_hole(3.5);
+  const std::size_t cleared = crack.triangles.size() - mesh.triangles.size();
+  REQUIRE(take_back_losses(mesh, crack, kH) == cleared);
+  CHECK(area_of(mesh) == area_of(crack));
+  CHECK(mesh.positions.size() == crack.positions.size());
+  CHECK(report_mesh(mesh).boundary_loops == 2);
+  CHECK(report_mesh(mesh).is_manifold());
+}
+
+TEST_CASE("a hole that was closed, or has lost little, stays as it is", "[finish]") {
+  TriangleMesh closed = shapes::square_sheet(kSide);
+  const TriangleMesh before = closed;
+  CHECK(take_back_losses(closed, sheet_with_hole(3.5), kH) == 0);
+  CHECK(closed == before);
+  TriangleMesh little = sheet_with_hole(1.5);
+  const double lost = area_of(sheet_with_hole(0.5)) - area_of(little);
+  CHECK(take_back_losses(little, sheet_with_hole(0.5), 1.01 * std::sqrt(lost / 10.0)) == 0);
+  CHECK(take_back_losses(little, sheet_with_hole(0.5), 0.99 * std::sqrt(lost / 10.0)) > 0);
+}
+
+TEST_CASE("faces do not come back through what is new", "[finish]") {
+  const TriangleMesh crack = sheet_with_hole(0.5);
+  TriangleMesh narrow = sheet_with_hole(3.5);
+  add_post(narrow, 0.5);  // in the crack itself
+  CHECK(take_back_losses(narrow, crack, kH) > 0);
+  CHECK(self_intersections(narrow).empty());
+  TriangleMesh wide = sheet_with_hole(3.5);
+  add_post(wide, 2.5);
+  const TriangleMesh before = wide;
+  CHECK(take_back_losses(wide, crack, kH) == 0);
+  CHECK(area_of(wide) == area_of(before));
+}
+
+}  // namespace
+}  // namespace rangezip
