@@ -256,7 +256,7 @@ std::vector<std::uint32_t> coarsen_cleanly(TriangleMesh& mesh, CoarsenOptions op
   options.is_kept.assign(fine.positions.size(), 0);
   for (int round = 0;; ++round) {
     const std::size_t collapsed = coarsen(mesh, options, progress);
-    const Pairs crossing = self_intersections(mesh);
+    const Pairs crossing = self_intersections(mesh, find_face_changes(fine, mesh).made);
     if (crossing.empty() || round == kCoarsenRounds) {
       report.collapsed_edges += collapsed;
       return faces_of_pairs(crossing);
