@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "core/base/parallel.h"
-#include "core/finish/advance_front.h"
 #include "core/finish/clean_topology.h"
 #include "core/finish/components.h"
 #include "core/finish/corner_table.h"
+#include "core/finish/grow_over.h"
 #include "core/finish/left_out_points.h"
 #include "core/finish/local_plane.h"
 #include "core/finish/places_near.h"
+#include "core/finish/restart_fronts.h"
 #include "core/finish/unsupported_faces.h"
 #include "core/finish/votes_near.h"
 #include "core/mesh/coverage.h"
@@ -37,12 +38,6 @@ constexpr double kOwnPoints = 0.75;  ///< in h: those of a face, also beside a g
 /// In h: points farther from the mesh than this are not in it.
 constexpr double kOffMesh = 0.42;
 constexpr double kOffMeshPerNoise = 2.0;
-constexpr double kApartAgain = 0.3;  ///< in h, of points where the front has stopped
-/// In h: points with a larger spacing leave circles of the front's radius empty by chance.
-constexpr double kSparse = 0.6;
-/// In h: of circles without points where the front has stopped. At last, when what a wider one
-/// might lead across has its surface from rim to rim.
-constexpr double kVoidRadius = 1.15;
 constexpr std::size_t kSpacingPlaces = 200;  ///< that tell whether points are sparse
 constexpr int kSmoothRounds = 3;
 constexpr double kHardlyNoise = 0.08;  ///< in h: less is left in
@@ -138,7 +133,7 @@ bool are_sparse(const std::vector<Vec3>& places, const PointGrid& cloud, double 
     spacings.push_back(spacing_near(cloud, places[i], h).value_or(0.0));
   const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
   std::nth_element(spacings.begin(), middle, spacings.end());
-  return *middle > kSparse * h;
+  return *middle > kSparseSpacing * h;
 }
 
 }  // namespace
@@ -167,13 +162,10 @@ std::size_t regrow(TriangleMesh& mesh, const SeenPoints& seen, const PointGrid& 
   drop_shreds(mesh, seen.votes.empty() ? kMinPiece : kMinPieceOfBodies);
   FacePart part = part_near(mesh, places, kPart * h);
   if (part.mesh.empty()) return 0;  // they are of another body, inside of this one
-  std::vector<Vec3> missing = points_off(near, part.mesh, off_mesh);
-  std::size_t count = advance_front(part.mesh, missing, {.pixel_size = h}, progress);
-  // Those that it has left out because the next were too far: all of them, where it stopped.
-  missing = points_off(missing, part.mesh, off_mesh);
-  count += advance_front(part.mesh, missing, {.pixel_size = h, .apart = kApartAgain}, progress);
-  if (are_sparse(left_out, grid, h))
-    count += close_fronts(part.mesh, near, {.pixel_size = h, .max_radius = kVoidRadius}, progress);
+  const GrowOverOptions grow{
+      .pixel_size = h, .off_mesh = off_mesh, .is_sparse = are_sparse(left_out, grid, h)};
+  std::size_t count = grow_over(part.mesh, near, grow, progress);
+  if (grow.is_sparse) count += restart_fronts(part.mesh, near, places, grow, progress);
   put_back(std::move(part), mesh);
   clean_topology(mesh);
   return count;
