@@ -9,9 +9,6 @@ namespace rangezip {
 namespace {
 
 constexpr double kApartAgain = 0.3;  ///< in h, of points where the front has stopped
-/// In h: of circles without points where the front has stopped. A wider one leads across a gap of
-/// 2 h.
-constexpr double kVoidRadius = 1.0;
 
 }  // namespace
 
@@ -31,8 +28,9 @@ std::size_t grow_over(TriangleMesh& mesh, std::span<const Vec3> points,
     missing = points_off(missing, mesh, options.off_mesh);
     count += advance_front(mesh, missing, pass, progress);
   }
-  if (options.is_sparse)
-    count += close_fronts(mesh, points, {.pixel_size = h, .max_radius = kVoidRadius}, progress);
+  if (options.void_radius > 0.0)
+    count +=
+        close_fronts(mesh, points, {.pixel_size = h, .max_radius = options.void_radius}, progress);
   return count;
 }
 

@@ -38,6 +38,14 @@ constexpr double kOwnPoints = 0.75;  ///< in h: those of a face, also beside a g
 /// In h: points farther from the mesh than this are not in it.
 constexpr double kOffMesh = 0.42;
 constexpr double kOffMeshPerNoise = 2.0;
+/// In h: points with a larger spacing leave circles of the front's radius empty by chance; and
+/// those with a still larger one do not tell walls that are 2 h apart.
+constexpr double kSparse = 0.6;
+constexpr double kVerySparse = 0.9;
+/// In h: of circles without points where the front has stopped. A wider one leads across a gap of
+/// 2 h.
+constexpr double kVoidRadius = 1.0;
+constexpr double kVoidRadiusInVerySparse = 1.15;
 constexpr std::size_t kSpacingPlaces = 200;  ///< that tell whether points are sparse
 constexpr int kSmoothRounds = 3;
 constexpr double kHardlyNoise = 0.08;  ///< in h: less is left in
@@ -125,15 +133,15 @@ void smooth(std::vector<Vec3>& points, const PointGrid& cloud, double h) {
   });
 }
 
-/// By the median of the spacing at some of the places.
-bool are_sparse(const std::vector<Vec3>& places, const PointGrid& cloud, double h) {
+/// The median of the spacing at some of the places.
+double spacing_of(const std::vector<Vec3>& places, const PointGrid& cloud, double h) {
   std::vector<double> spacings;
   const std::size_t step = 1 + places.size() / kSpacingPlaces;
   for (std::size_t i = 0; i < places.size(); i += step)
     spacings.push_back(spacing_near(cloud, places[i], h).value_or(0.0));
   const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
   std::nth_element(spacings.begin(), middle, spacings.end());
-  return *middle > kSparseSpacing * h;
+  return *middle;
 }
 
 }  // namespace
@@ -162,10 +170,13 @@ std::size_t regrow(TriangleMesh& mesh, const SeenPoints& seen, const PointGrid& 
   drop_shreds(mesh, seen.votes.empty() ? kMinPiece : kMinPieceOfBodies);
   FacePart part = part_near(mesh, places, kPart * h);
   if (part.mesh.empty()) return 0;  // they are of another body, inside of this one
-  const GrowOverOptions grow{
-      .pixel_size = h, .off_mesh = off_mesh, .is_sparse = are_sparse(left_out, grid, h)};
+  GrowOverOptions grow{.pixel_size = h, .off_mesh = off_mesh};
+  const double spacing = spacing_of(left_out, grid, h);
+  const bool is_sparse = spacing > kSparse * h, is_very_sparse = spacing > kVerySparse * h;
+  if (is_sparse) grow.void_radius = is_very_sparse ? kVoidRadiusInVerySparse : kVoidRadius;
   std::size_t count = grow_over(part.mesh, near, grow, progress);
-  if (grow.is_sparse) count += restart_fronts(part.mesh, near, places, grow, progress);
+  if (is_sparse && !is_very_sparse)
+    count += restart_fronts(part.mesh, near, places, grow, progress);
   put_back(std::move(part), mesh);
   clean_topology(mesh);
   return count;

@@ -26,9 +26,11 @@ struct RegrowOptions {
 /// other side; 2 h also takes what bends into the mouth of a hole and on along the wall's back,
 /// from where the wall would grow inside out. Then an advancing front
 /// (core/finish/grow_over.h) goes over the points up to 4 h from those left out, and joins what it
-/// meets; where the points are sparse and it is stuck, it starts again
-/// (core/finish/restart_fronts.h). So the way there leads over the surface, not through the air,
-/// and of holes only those without points are left.
+/// meets; where points are sparse, over 0.6 h apart, and it has stopped all around a place without
+/// any, of 1 h in radius at most (1.15 h where they are over 0.9 h apart), it is closed; and where
+/// it is stuck between such points it starts again (core/finish/restart_fronts.h; up to 0.9 h).
+/// So the way there leads over the surface, not through the air, and of holes only those without
+/// points are left.
 ///
 /// Points with noise of over 0.08 h are first moved, three times, onto the plane through those
 /// within 1.3 h, and only what the mesh leaves out even then counts: layers that scans out of place

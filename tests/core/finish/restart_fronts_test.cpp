@@ -26,7 +26,7 @@ constexpr double kOffMesh = 0.42 * kH;
 constexpr std::size_t kRagged = 5;
 constexpr int kRings = 5;           ///< of vertices of the wall of a hole, at both of its ends
 constexpr double kGap = 16.0 * kH;  ///< between them
-const GrowOverOptions kSparse{.pixel_size = kH, .off_mesh = kOffMesh, .is_sparse = true};
+const GrowOverOptions kSparse{.pixel_size = kH, .off_mesh = kOffMesh, .void_radius = 1.0};
 
 PointGrid grid_of(const std::vector<Vec3>& points) {
   return PointGrid(points, Box{Vec3(-20.0 * kH), Vec3(20.0 * kH)}, kH);
