@@ -2,6 +2,13 @@
 
 namespace rangezip {
 
+PointGrid grid_of(std::span<const Vec3> places, double cell) {
+  Box region;
+  for (const Vec3& place : places)
+    region.add(place);
+  return {places, region, cell};
+}
+
 std::vector<Vec3> points_near(std::span<const Vec3> points, const PointGrid& places,
                               double radius) {
   const auto flags = flags_of(

@@ -24,6 +24,10 @@ template <class IsIn>
   return flags;
 }
 
+/// A grid of all of the places.
+/// @param cell side of its cubes, model units, positive
+[[nodiscard]] PointGrid grid_of(std::span<const Vec3> places, double cell);
+
 /// The points within `radius` of one of the places, in their order.
 [[nodiscard]] std::vector<Vec3> points_near(std::span<const Vec3> points, const PointGrid& places,
                                             double radius);

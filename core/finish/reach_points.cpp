@@ -48,13 +48,6 @@ constexpr std::array kHeights{0.75, 0.5, 0.25, 0.0};  ///< of a spike over its n
 constexpr std::array kShares{1.0, 0.5};               ///< of the way, the first that is good
 constexpr std::uint32_t kNone = CornerTable::kNone;
 
-PointGrid grid_of(const std::vector<Vec3>& places, double cell) {
-  Box region;
-  for (const Vec3& place : places)
-    region.add(place);
-  return {places, region, cell};
-}
-
 /// The ends of creases.
 std::vector<Vec3> sharp_vertices(const TriangleMesh& mesh) {
   const CornerTable table(mesh.triangles, mesh.positions.size());

@@ -69,16 +69,12 @@ std::vector<Rest> ragged_border(TriangleMesh mesh, const PointGrid& places, doub
   return border;
 }
 
-PointGrid grid_of(const std::vector<Rest>& border, double h) {
+PointGrid grid_of_border(const std::vector<Rest>& border, double h) {
   std::vector<Vec3> places;
-  Box region;
-  for (const Rest& rest : border) {
+  places.reserve(border.size());
+  for (const Rest& rest : border)
     places.push_back(rest.place);
-    region.add(rest.place);
-  }
-  region.lower -= Vec3(kPart * h);
-  region.upper += Vec3(kPart * h);
-  return PointGrid(places, region, kCube * h);
+  return grid_of(places, kCube * h);
 }
 
 /// What is left to do in a growth.
@@ -232,7 +228,7 @@ std::size_t restart_fronts(TriangleMesh& mesh, std::span<const Vec3> points, con
   const double h = options.pixel_size;
   const std::vector<Rest> border = ragged_border(mesh, grown, kGrown * h);
   if (border.empty()) return 0;
-  const PointGrid around = grid_of(border, h);
+  const PointGrid around = grid_of_border(border, h);
   FacePart part = part_near(mesh, around, kPart * h);
   const std::vector<Vec3> near = points_near(points, around, kPlace * h);
   const std::size_t before = part.mesh.triangles.size();
@@ -246,8 +242,8 @@ std::size_t restart_fronts(TriangleMesh& mesh, std::span<const Vec3> points, con
     if (left.border.empty()) break;
     GrowOverOptions again = options;
     again.start = start.front;
-    Growth growth =
-        grow_again(part.mesh, near, grid_of(left.border, h), start.cleared * h, again, progress);
+    Growth growth = grow_again(part.mesh, near, grid_of_border(left.border, h), start.cleared * h,
+                               again, progress);
     const Left left_then = left_in(growth.mesh);
     if (!take_better(part.mesh, std::move(growth), left, left_then, h)) continue;
     left = left_in(part.mesh);

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 #include <vector>
 
+#include "core/base/disjoint_sets.h"
 #include "core/finish/corner_table.h"
 #include "core/mesh/face_changes.h"
 #include "core/mesh/self_intersection.h"
@@ -17,27 +17,6 @@ namespace {
 constexpr double kMostMade = 0.5;
 /// In square h: losing less is no worse than the cracks that were there.
 constexpr double kSmallLoss = 10.0;
-
-/// Which vertices hang together.
-class VertexSets {
- public:
-  explicit VertexSets(std::size_t vertices) : parent_(vertices) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-  }
-  [[nodiscard]] std::uint32_t set_of(std::uint32_t v) {
-    while (parent_[v] != v)
-      v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-  void join(const Triangle& face) {
-    const std::uint32_t set = set_of(face[0]);
-    parent_[set_of(face[1])] = set;
-    parent_[set_of(face[2])] = set;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 std::vector<std::uint8_t> border_vertices(const TriangleMesh& mesh) {
   const CornerTable table(mesh.triangles, mesh.positions.size());
@@ -59,9 +38,9 @@ class Losses {
         sets_(after.positions.size()),
         is_undone_(after.positions.size(), 0) {
     for (const std::uint32_t f : changes_.gone)
-      sets_.join(before.triangles[f]);
+      join(before.triangles[f]);
     for (const std::uint32_t f : changes_.made)
-      sets_.join(after.triangles[f]);
+      join(after.triangles[f]);
     choose(kSmallLoss * h * h);
   }
 
@@ -75,29 +54,34 @@ class Losses {
       if (crossing.empty()) return back.size();
       for (const auto& [i, j] : crossing) {
         for (const std::uint32_t f : {i, j}) {
-          if (f >= back.front()) is_undone_[sets_.set_of(mesh.triangles[f][0])] = 0;
+          if (f >= back.front()) is_undone_[sets_.find(mesh.triangles[f][0])] = 0;
         }
       }
     }
   }
 
  private:
+  void join(const Triangle& face) {
+    sets_.join(face[0], face[1]);
+    sets_.join(face[0], face[2]);
+  }
+
   /// Sets at an open loop in which much more surface went than came.
   /// @param least surface lost, square model units
   void choose(double least) {
     std::vector<double> gone(after_.positions.size(), 0.0), made = gone;
     for (const std::uint32_t f : changes_.gone) {
       const Triangle& t = before_.triangles[f];
-      gone[sets_.set_of(t[0])] += area_of_face(before_.positions, t);
+      gone[sets_.find(t[0])] += area_of_face(before_.positions, t);
     }
     for (const std::uint32_t f : changes_.made) {
       const Triangle& t = after_.triangles[f];
-      made[sets_.set_of(t[0])] += area_of_face(after_.positions, t);
+      made[sets_.find(t[0])] += area_of_face(after_.positions, t);
     }
     const std::vector<std::uint8_t> is_at_border = border_vertices(after_);
     for (const std::uint32_t f : changes_.gone) {
       for (const std::uint32_t v : before_.triangles[f]) {
-        const std::uint32_t set = sets_.set_of(v);
+        const std::uint32_t set = sets_.find(v);
         const bool is_much = made[set] <= kMostMade * gone[set] && gone[set] - made[set] >= least;
         if (is_at_border[v] != 0 && is_much) is_undone_[set] = 1;
       }
@@ -108,11 +92,11 @@ class Losses {
   [[nodiscard]] std::vector<Triangle> undone(std::vector<std::uint32_t>& back) {
     std::vector<std::uint8_t> goes(after_.triangles.size(), 0);
     for (const std::uint32_t f : changes_.made)
-      goes[f] = is_undone_[sets_.set_of(after_.triangles[f][0])];
+      goes[f] = is_undone_[sets_.find(after_.triangles[f][0])];
     std::vector<Triangle> triangles = after_.triangles;
     remove_triangles(triangles, goes);
     for (const std::uint32_t f : changes_.gone) {
-      if (is_undone_[sets_.set_of(before_.triangles[f][0])] == 0) continue;
+      if (is_undone_[sets_.find(before_.triangles[f][0])] == 0) continue;
       back.push_back(static_cast<std::uint32_t>(triangles.size()));
       triangles.push_back(before_.triangles[f]);
     }
@@ -122,7 +106,7 @@ class Losses {
   const TriangleMesh& before_;
   const TriangleMesh& after_;
   FaceChanges changes_;
-  VertexSets sets_;
+  DisjointSets sets_;
   std::vector<std::uint8_t> is_undone_;  ///< of sets, by the vertex that names each
 };
 
