@@ -119,6 +119,7 @@ class Front {
         h_(options.pixel_size),
         max_radius_(options.max_radius * h_),
         topology_(topology),
+        votes_(options.votes),
         edges_(3 * mesh.triangles.size()),
         guard_(mesh, kGuardCube * h_) {
     const std::vector<Vec3> apart = points_apart(points, options.apart * h_);
@@ -141,7 +142,8 @@ class Front {
       steps_.pop();
       if (!is_open(step.from, step.to)) continue;
       const Triangle beyond{step.to, step.from, step.tip};
-      if (!may_take(step.from, step.to, step.tip) || guard_.would_cross(beyond)) {
+      if (!may_take(step.from, step.to, step.tip) || guard_.would_cross(beyond) ||
+          looks_back(beyond)) {
         refused_.insert(beyond);
         look_beyond(step.from, step.to);
         continue;
@@ -205,6 +207,12 @@ class Front {
   [[nodiscard]] bool may_take(std::uint32_t a, std::uint32_t b, std::uint32_t v) const {
     return (is_free(v) || open_edges_[v] > 0) && edges_.find(a, v) == kNone &&
            edges_.find(v, b) == kNone && (topology_ == Topology::changes || is_on_loop(a, b, v));
+  }
+
+  [[nodiscard]] bool looks_back(const Triangle& face) const {
+    if (votes_ == nullptr) return false;
+    const Vec3 back = -unit_normal(mesh_.positions, face);
+    return votes_->around(centroid_of(mesh_.positions, face)).look_toward(back);
   }
 
   /// Whether a vertex is on the boundary loop of border edge (a, b), if that is short.
@@ -288,6 +296,7 @@ class Front {
   double h_;
   double max_radius_;  ///< model units
   Topology topology_;
+  const VoteGrid* votes_;
   EdgeMap edges_;
   std::vector<Vec3> area_around_;     ///< of each vertex: sum over its faces; none: zero
   std::vector<int> open_edges_;       ///< of each vertex, without a face on one side

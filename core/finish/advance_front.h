@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/base/progress.h"
+#include "core/finish/votes_near.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace rangezip {
@@ -12,6 +13,8 @@ struct AdvanceFrontOptions {
   double pixel_size = 0.0;  ///< h, model units; positive
   double apart = 0.6;       ///< in h: of points nearer to each other one is taken
   double max_radius = 0.9;  ///< in h, of the circle through the corners of a face
+  /// Of the points around: a face is not made if they look out of its back. Null: not known.
+  const VoteGrid* votes = nullptr;
 };
 
 /// Grows the border of a mesh over points by an advancing front [Bernardini et al. 1999;

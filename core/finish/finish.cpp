@@ -154,7 +154,9 @@ void grow_again(TriangleMesh& mesh, const Growth& growth, const RegrowOptions& g
 void grow_and_close(TriangleMesh& mesh, const Growth& growth, double in_the_way,
                     FinishReport& report) {
   const auto& [given, cloud, points, options, progress] = growth;
-  const RegrowOptions grown{.pixel_size = options.pixel_size, .in_the_way = in_the_way};
+  const RegrowOptions grown{.pixel_size = options.pixel_size,
+                            .in_the_way = in_the_way,
+                            .only_outwards = !options.narrow_gaps};
   if (options.regrow) report.regrown_faces += regrow(mesh, cloud, points, grown, progress);
   repair(mesh, crossings_of(mesh, given), {}, points, options, report, progress);
   if (options.regrow) grow_again(mesh, growth, grown, report);

@@ -15,12 +15,13 @@ constexpr double kApartAgain = 0.3;  ///< in h, of points where the front has st
 std::size_t grow_over(TriangleMesh& mesh, std::span<const Vec3> points,
                       const GrowOverOptions& options, const Progress& progress) {
   const double h = options.pixel_size;
-  std::vector<AdvanceFrontOptions> passes{{.pixel_size = h},
-                                          {.pixel_size = h, .apart = kApartAgain}};
+  const AdvanceFrontOptions common{.pixel_size = h, .votes = options.votes};
+  std::vector<AdvanceFrontOptions> passes(2, common);
+  passes[1].apart = kApartAgain;
   if (options.start) {
-    passes.insert(
-        passes.begin(),
-        {.pixel_size = h, .apart = options.start->apart, .max_radius = options.start->max_radius});
+    passes.insert(passes.begin(), common);
+    passes[0].apart = options.start->apart;
+    passes[0].max_radius = options.start->max_radius;
   }
   std::vector<Vec3> missing(points.begin(), points.end());
   std::size_t count = 0;
@@ -28,9 +29,11 @@ std::size_t grow_over(TriangleMesh& mesh, std::span<const Vec3> points,
     missing = points_off(missing, mesh, options.off_mesh);
     count += advance_front(mesh, missing, pass, progress);
   }
-  if (options.void_radius > 0.0)
-    count +=
-        close_fronts(mesh, points, {.pixel_size = h, .max_radius = options.void_radius}, progress);
+  if (options.void_radius > 0.0) {
+    AdvanceFrontOptions closing = common;
+    closing.max_radius = options.void_radius;
+    count += close_fronts(mesh, points, closing, progress);
+  }
   return count;
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/base/progress.h"
+#include "core/finish/votes_near.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace rangezip {
@@ -19,6 +20,7 @@ struct GrowOverOptions {
   double pixel_size = 0.0;   ///< h, model units; positive
   double off_mesh = 0.0;     ///< model units: points farther from the mesh are not in it; positive
   double void_radius = 0.0;  ///< in h, of circles without points that are closed at last; 0: none
+  const VoteGrid* votes = nullptr;  ///< AdvanceFrontOptions::votes
   std::optional<FrontStart> start;  ///< of a pass before all others
 };
 

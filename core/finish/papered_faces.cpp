@@ -6,8 +6,7 @@
 
 #include "core/base/parallel.h"
 #include "core/finish/clean_topology.h"
-#include "core/finish/components.h"
-#include "core/finish/corner_table.h"
+#include "core/finish/flagged_pieces.h"
 #include "core/finish/places_near.h"
 #include "core/finish/unsupported_faces.h"
 #include "core/finish/votes_near.h"
@@ -62,38 +61,6 @@ std::vector<Sight> sights_of(const TriangleMesh& mesh, const PointGrid& cloud, d
   return sights;
 }
 
-/// Faces with a flag that hang together.
-struct FlaggedPiece {
-  double area = 0.0;
-  double rim = 0.0;  ///< length of the edges to faces without
-};
-
-/// Clears the flags of pieces that are not kept.
-template <class IsKept>
-void keep_pieces(const TriangleMesh& mesh, std::vector<std::uint8_t>& flags,
-                 const IsKept& is_kept) {
-  std::vector<std::size_t> faces;
-  std::vector<Triangle> triangles;
-  for (std::size_t f = 0; f < flags.size(); ++f) {
-    if (flags[f] == 0) continue;
-    faces.push_back(f);
-    triangles.push_back(mesh.triangles[f]);
-  }
-  const CornerTable table(triangles, mesh.positions.size());
-  const std::vector<std::uint32_t> piece = components_of(table);
-  std::vector<FlaggedPiece> pieces(faces.size());
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    pieces[piece[i]].area += area_of_face(mesh.positions, triangles[i]);
-    for (auto c = static_cast<std::uint32_t>(3 * i); c < 3 * i + 3; ++c) {
-      if (table.across(c) != CornerTable::kNone) continue;
-      pieces[piece[i]].rim +=
-          glm::length(mesh.positions[table.head(c)] - mesh.positions[table.vertex(c)]);
-    }
-  }
-  for (std::size_t i = 0; i < faces.size(); ++i)
-    flags[faces[i]] = is_kept(pieces[piece[i]]) ? 1 : 0;
-}
-
 }  // namespace
 
 std::vector<std::uint8_t> papered_faces(const TriangleMesh& mesh, const PointGrid& cloud,
@@ -104,10 +71,10 @@ std::vector<std::uint8_t> papered_faces(const TriangleMesh& mesh, const PointGri
   places.reserve(sights.size());
   for (const Sight& sight : sights)
     places.push_back(sight.place);
-  const std::vector<VotesNear> votes = votes_near(places, seen, kReach * pixel_size);
+  const VoteGrid votes(seen, places, kReach * pixel_size);
   std::vector<std::uint8_t> is_papered(mesh.triangles.size(), 0);
-  for (std::size_t i = 0; i < sights.size(); ++i)
-    is_papered[sights[i].face] = votes[i].look_toward(sights[i].toward) ? 1 : 0;
+  for (const Sight& sight : sights)
+    is_papered[sight.face] = votes.around(sight.place).look_toward(sight.toward) ? 1 : 0;
   const double least = kLeastArea * pixel_size * pixel_size;
   keep_pieces(mesh, is_papered, [&](const FlaggedPiece& piece) { return piece.area >= least; });
   return is_papered;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -11,7 +13,9 @@
 #include "core/finish/clean_topology.h"
 #include "core/finish/components.h"
 #include "core/finish/corner_table.h"
+#include "core/finish/flagged_pieces.h"
 #include "core/finish/grow_over.h"
+#include "core/finish/inside_out.h"
 #include "core/finish/left_out_points.h"
 #include "core/finish/local_plane.h"
 #include "core/finish/places_near.h"
@@ -46,6 +50,10 @@ constexpr double kVerySparse = 0.9;
 /// 2 h.
 constexpr double kVoidRadius = 1.0;
 constexpr double kVoidRadiusInVerySparse = 1.15;
+/// In square h: of faces that have grown and that hang together, around a rim, where points of both
+/// sides look the way of one.
+constexpr double kByChance = 10.0;
+constexpr double kAroundWrong = 4.0;         ///< in h: of more, where no face is to grow inside out
 constexpr std::size_t kSpacingPlaces = 200;  ///< that tell whether points are sparse
 constexpr int kSmoothRounds = 3;
 constexpr double kHardlyNoise = 0.08;  ///< in h: less is left in
@@ -54,6 +62,12 @@ constexpr std::size_t kGrain = 256;
 /// not where all is seen from one side.
 constexpr std::size_t kMinPiece = 12;
 constexpr std::size_t kMinPieceOfBodies = 40;
+
+/// How fronts grow.
+struct Growth {
+  GrowOverOptions options;
+  std::optional<VoteGrid> votes;  ///< that options refer to
+};
 
 Box region_of(const TriangleMesh& mesh, double h) {
   Box region = bounds_of(mesh);
@@ -84,22 +98,28 @@ void drop_shreds(TriangleMesh& mesh, std::size_t min_faces) {
 /// Drops the faces near points that are left out whose own points look the other way.
 void drop_inside_out(TriangleMesh& mesh, const SeenPoints& seen, const PointGrid& left_out,
                      double h) {
-  if (seen.votes.empty()) return;
   std::vector<std::uint32_t> faces;
-  std::vector<Vec3> places;
   for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
     const Vec3 center = centroid_of(mesh.positions, mesh.triangles[f]);
-    if (!left_out.has_point_within(center, kDoubted * h)) continue;
-    faces.push_back(f);
-    places.push_back(center);
+    if (left_out.has_point_within(center, kDoubted * h)) faces.push_back(f);
   }
-  const std::vector<VotesNear> votes = votes_near(places, seen, kOwnPoints * h);
-  std::vector<std::uint8_t> goes(mesh.triangles.size(), 0);
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    const Vec3 back = -unit_normal(mesh.positions, mesh.triangles[faces[i]]);
-    goes[faces[i]] = votes[i].look_toward(back) ? 1 : 0;
+  remove_triangles(mesh.triangles, inside_out_faces(mesh, faces, seen, kOwnPoints * h));
+}
+
+/// Centroids of faces that have grown inside out, and hang together.
+/// @param first of the faces that have grown
+std::vector<Vec3> grown_inside_out(const TriangleMesh& mesh, std::size_t first,
+                                   const SeenPoints& seen, double h) {
+  std::vector<std::uint32_t> grown(mesh.triangles.size() - first);
+  std::iota(grown.begin(), grown.end(), static_cast<std::uint32_t>(first));
+  std::vector<std::uint8_t> flags = inside_out_faces(mesh, grown, seen, kOwnPoints * h);
+  keep_pieces(mesh, flags,
+              [&](const FlaggedPiece& piece) { return piece.area > kByChance * h * h; });
+  std::vector<Vec3> places;
+  for (const std::uint32_t f : grown) {
+    if (flags[f] != 0) places.push_back(centroid_of(mesh.positions, mesh.triangles[f]));
   }
-  remove_triangles(mesh.triangles, goes);
+  return places;
 }
 
 /// Drops faces that lead through the air, and those that hide the way to points.
@@ -144,6 +164,22 @@ double spacing_of(const std::vector<Vec3>& places, const PointGrid& cloud, doubl
   return *middle;
 }
 
+/// Grows over points, and once more from the start where that goes on inside out: not with faces
+/// there of which the points look out of the back.
+std::size_t grow_outwards(TriangleMesh& mesh, std::span<const Vec3> near, const SeenPoints& seen,
+                          Growth& growth, const Progress& progress) {
+  const double h = growth.options.pixel_size;
+  const TriangleMesh start = mesh;
+  std::size_t count = grow_over(mesh, near, growth.options, progress);
+  const std::vector<Vec3> wrong = grown_inside_out(mesh, start.triangles.size(), seen, h);
+  if (wrong.empty()) return count;
+  growth.votes.emplace(seen, points_near(near, grid_of(wrong, kAroundWrong * h), kAroundWrong * h),
+                       kOwnPoints * h);
+  growth.options.votes = &*growth.votes;
+  mesh = start;
+  return grow_over(mesh, near, growth.options, progress);
+}
+
 }  // namespace
 
 std::size_t regrow(TriangleMesh& mesh, const SeenPoints& seen, const PointGrid& grid,
@@ -170,13 +206,15 @@ std::size_t regrow(TriangleMesh& mesh, const SeenPoints& seen, const PointGrid& 
   drop_shreds(mesh, seen.votes.empty() ? kMinPiece : kMinPieceOfBodies);
   FacePart part = part_near(mesh, places, kPart * h);
   if (part.mesh.empty()) return 0;  // they are of another body, inside of this one
-  GrowOverOptions grow{.pixel_size = h, .off_mesh = off_mesh};
+  Growth growth{.options = {.pixel_size = h, .off_mesh = off_mesh}};
   const double spacing = spacing_of(left_out, grid, h);
   const bool is_sparse = spacing > kSparse * h, is_very_sparse = spacing > kVerySparse * h;
-  if (is_sparse) grow.void_radius = is_very_sparse ? kVoidRadiusInVerySparse : kVoidRadius;
-  std::size_t count = grow_over(part.mesh, near, grow, progress);
+  if (is_sparse)
+    growth.options.void_radius = is_very_sparse ? kVoidRadiusInVerySparse : kVoidRadius;
+  std::size_t count = options.only_outwards ? grow_outwards(part.mesh, near, seen, growth, progress)
+                                            : grow_over(part.mesh, near, growth.options, progress);
   if (is_sparse && !is_very_sparse)
-    count += restart_fronts(part.mesh, near, places, grow, progress);
+    count += restart_fronts(part.mesh, near, places, growth.options, progress);
   put_back(std::move(part), mesh);
   clean_topology(mesh);
   return count;

@@ -12,6 +12,9 @@ namespace rangezip {
 struct RegrowOptions {
   double pixel_size = 0.0;  ///< h, model units; positive
   double in_the_way = 0.9;  ///< in h: faces as near to a point that the mesh does not show go
+  /// Fronts that have gone on inside out start once more. Not between walls so close that few
+  /// directions see into the gap: the votes there are those of the rims.
+  bool only_outwards = true;
 };
 
 /// Grows a surface over places that no scan has reached: deep in slots and cavities, and where two
@@ -26,11 +29,13 @@ struct RegrowOptions {
 /// other side; 2 h also takes what bends into the mouth of a hole and on along the wall's back,
 /// from where the wall would grow inside out. Then an advancing front
 /// (core/finish/grow_over.h) goes over the points up to 4 h from those left out, and joins what it
-/// meets; where points are sparse, over 0.6 h apart, and it has stopped all around a place without
-/// any, of 1 h in radius at most (1.15 h where they are over 0.9 h apart), it is closed; and where
-/// it is stuck between such points it starts again (core/finish/restart_fronts.h; up to 0.9 h).
-/// So the way there leads over the surface, not through the air, and of holes only those without
-/// points are left.
+/// meets; if over 10 h^2 of faces that hang together have come inside out, by the votes, as from a
+/// scrap across the mouth of a bore down its wall, once more from the start, with no such face
+/// within 4 h of those; where points are sparse, over 0.6 h apart, and it has stopped all around a
+/// place without any, of 1 h in radius at most (1.15 h where they are over 0.9 h apart), it is
+/// closed; and where it is stuck between such points it starts again (core/finish/restart_fronts.h;
+/// up to 0.9 h). So the way there leads over the surface, not through the air, and of holes only
+/// those without points are left.
 ///
 /// Points with noise of over 0.08 h are first moved, three times, onto the plane through those
 /// within 1.3 h, and only what the mesh leaves out even then counts: layers that scans out of place

@@ -1,9 +1,7 @@
 #include "core/finish/votes_near.h"
 
-#include <cstdint>
-#include <unordered_map>
+#include <cstddef>
 
-#include "core/base/cubes.h"
 #include "core/finish/places_near.h"
 
 namespace rangezip {
@@ -13,6 +11,13 @@ constexpr double kClearly = 0.25;
 constexpr double kFullVote = 127.0;
 constexpr double kLeastVote = 0.05 * kFullVote;
 
+/// A cube, and those that touch it.
+template <class Visit>
+void for_each_around(const Cube& center, const Visit& visit) {
+  for (int k = 0; k < 27; ++k)
+    visit(Cube{center[0] + k % 3 - 1, center[1] + k / 3 % 3 - 1, center[2] + k / 9 - 1});
+}
+
 }  // namespace
 
 bool VotesNear::look_toward(const Vec3& unit) const {
@@ -21,31 +26,31 @@ bool VotesNear::look_toward(const Vec3& unit) const {
          glm::dot(sum, unit) > kClearly * length;
 }
 
-std::vector<VotesNear> votes_near(std::span<const Vec3> places, const SeenPoints& seen,
-                                  double radius) {
-  std::unordered_map<Cube, std::vector<std::size_t>, CubeHash> places_in;  // and around a cube
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const Cube center = cube_of(places[i], radius);
-    for (int k = 0; k < 27; ++k) {
-      const Cube cube{center[0] + k % 3 - 1, center[1] + k / 3 % 3 - 1, center[2] + k / 9 - 1};
-      places_in[cube].push_back(i);
-    }
-  }
+VoteGrid::VoteGrid(const SeenPoints& seen, std::span<const Vec3> places, double radius)
+    : seen_(seen), radius_(radius) {
+  for (const Vec3& place : places)
+    for_each_around(cube_of(place, radius), [&](const Cube& cube) { points_in_[cube]; });
   const auto is_near = flags_of(seen.votes.size(), [&](std::size_t p) {
-    return places_in.contains(cube_of(seen.points[p], radius));
+    return points_in_.contains(cube_of(seen.points[p], radius));
   });
-  std::vector<VotesNear> sums(places.size());
-  for (std::size_t p = 0; p < is_near.size(); ++p) {
-    if (is_near[p] == 0) continue;
-    const Vec3& point = seen.points[p];
-    const auto& [x, y, z] = seen.votes[p];
-    for (const std::size_t i : places_in.at(cube_of(point, radius))) {
-      if (glm::length(places[i] - point) > radius) continue;
-      sums[i].sum += Vec3(x, y, z);
-      ++sums[i].count;
-    }
+  for (std::uint32_t p = 0; p < is_near.size(); ++p) {
+    if (is_near[p] != 0) points_in_.at(cube_of(seen.points[p], radius)).push_back(p);
   }
-  return sums;
+}
+
+VotesNear VoteGrid::around(const Vec3& place) const {
+  VotesNear near;
+  for_each_around(cube_of(place, radius_), [&](const Cube& cube) {
+    const auto found = points_in_.find(cube);
+    if (found == points_in_.end()) return;
+    for (const std::uint32_t p : found->second) {
+      if (glm::length(place - seen_.points[p]) > radius_) continue;
+      const auto& [x, y, z] = seen_.votes[p];
+      near.sum += Vec3(x, y, z);
+      ++near.count;
+    }
+  });
+  return near;
 }
 
 }  // namespace rangezip

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
+#include "core/base/cubes.h"
 #include "core/base/geometry.h"
 #include "core/finish/seen_points.h"
 
@@ -19,9 +22,21 @@ struct VotesNear {
   [[nodiscard]] bool look_toward(const Vec3& unit) const;
 };
 
-/// The votes of the points within `radius` of each place (those of polygons have none).
-/// O(places + points).
-[[nodiscard]] std::vector<VotesNear> votes_near(std::span<const Vec3> places,
-                                                const SeenPoints& seen, double radius);
+/// The votes of the points around places, for looking at them there (those of polygons have none).
+class VoteGrid {
+ public:
+  /// Keeps the points within two times `radius` of the places, and some farther ones.
+  /// O(places + points).
+  /// @param radius model units, positive
+  VoteGrid(const SeenPoints& seen, std::span<const Vec3> places, double radius);
+
+  /// Of the points within the radius, as far as they are kept.
+  [[nodiscard]] VotesNear around(const Vec3& place) const;
+
+ private:
+  SeenPoints seen_;
+  double radius_;
+  std::unordered_map<Cube, std::vector<std::uint32_t>, CubeHash> points_in_;
+};
 
 }  // namespace rangezip

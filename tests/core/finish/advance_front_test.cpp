@@ -1,12 +1,15 @@
 #include "core/finish/advance_front.h"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdint>
 #include <random>
 #include <vector>
 
 #include "core/finish/clean_topology.h"
+#include "core/finish/votes_near.h"
 #include "core/mesh/coverage.h"
 #include "core/mesh/mesh_report.h"
 #include "core/mesh/self_intersection.h"
@@ -146,6 +149,30 @@ TEST_CASE("a front goes around a crease, up the wall behind it", "[finish]") {
     area += glm::length(normal);
   }
   CHECK(facing > 0.95 * area);
+}
+
+TEST_CASE("a front makes no face of which the points around look out of the back", "[finish]") {
+  const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
+  const int side = GENERATE(-1, 1);  // to which the points of the wall below the sheet look
+  CAPTURE(seed, side);
+  std::mt19937_64 engine(seed);
+  TriangleMesh mesh = sheet_without([](const Vec3& p) { return p.x > 0.5; });
+  auto points = points_in({Vec3(0.1, -12.0, 0.0), Vec3(0.6, 12.0, 0.0)}, 6.0, engine);
+  std::vector<std::array<std::int8_t, 3>> votes(points.size(), {0, 0, 127});
+  const auto wall = points_in({Vec3(0.6, -12.0, -10.0), Vec3(0.6, 12.0, 0.0)}, 6.0, engine);
+  points.insert(points.end(), wall.begin(), wall.end());
+  votes.resize(points.size(), {static_cast<std::int8_t>(100 * side), 0, 30});
+  const VoteGrid grid({points, votes}, points, 0.75 * kH);
+
+  advance_front(mesh, points, {.pixel_size = kH, .votes = &grid});
+
+  const auto covered = covered_points(wall, mesh, 0.6 * kH);
+  const auto on_mesh = static_cast<std::size_t>(std::count(covered.begin(), covered.end(), 1));
+  // The sheet looks up, so its wall looks to +x; of another only the rim lies on the sheet.
+  if (side > 0)
+    CHECK(on_mesh > wall.size() / 100 * 98);
+  else
+    CHECK(on_mesh < wall.size() / 5);
 }
 
 TEST_CASE("a front does not cross what is in the way", "[finish]") {

@@ -107,6 +107,38 @@ TEST_CASE("nothing grows inside out from a piece whose points are seen from behi
   CHECK(all_look_up == has_votes);  // nothing else tells
 }
 
+TEST_CASE("a front goes down no wall of which the points look out of the back, if it is told so",
+          "[finish]") {
+  const bool only_outwards = GENERATE(true, false);
+  const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
+  CAPTURE(only_outwards, seed);
+  std::mt19937_64 engine(seed);
+  // A sheet that looks up ends at a wall that goes down there: its faces would look to +x.
+  TriangleMesh mesh = shapes::square_sheet(kSide);
+  testing::cut_where(mesh, [](const Vec3& p) { return p.x > 0.0; });
+  std::vector<Vec3> points;
+  add_sheet_points(points, 0.0, engine);
+  std::erase_if(points, [](const Vec3& p) { return p.x > 0.5; });
+  std::vector<std::array<std::int8_t, 3>> votes(points.size(), {0, 0, 100});
+  for (int i = 0; i < 6 * kSide * 10; ++i)
+    points.push_back(
+        {0.5, uniform(engine, -0.5 * kSide, 0.5 * kSide), uniform(engine, -10.0, 0.0)});
+  votes.resize(points.size(), {-100, 0, 30});
+
+  regrow(mesh, {points, votes}, grid_of(points),
+         {.pixel_size = kH, .only_outwards = only_outwards});
+
+  require_clean(mesh);
+  double inside_out = 0.0;
+  for (const Triangle& t : mesh.triangles) {
+    if (centroid_of(mesh.positions, t).z < -2.0) inside_out += area_of_face(mesh.positions, t);
+  }
+  if (only_outwards)
+    CHECK(inside_out == 0.0);
+  else
+    CHECK(inside_out > 0.9 * kSide * 8.0);
+}
+
 TEST_CASE("regrow over noise of a fifth of a pixel makes faces that are flatter than the noise",
           "[finish]") {
   constexpr double kNoise = 0.2 * kH;
