@@ -28,10 +28,9 @@ BODIES = {'torus': (1, 1), 'cube': (1, 0), **{f'{thin} {t}': (1, 0) for thin in 
           **{f'{sharp} {angle}': (1, 0) for sharp in ('lens', 'star') for angle in (25, 40)}}
 
 
-def reached(name, seed, args):
-    """(components, genus, boundary loops, coverage) of the mesh of one cloud."""
-    base = os.path.join(args.out, '%s %d' % (name, seed)).replace(' ', '_')
-    sys.modules['sample'].write_ply(base + '_in.ply', shapes.make(name, seed).points)
+def meshed(base, points, args):
+    """(components, genus, boundary loops, coverage) of the mesh of a cloud. @param base of the names of files"""
+    sys.modules['sample'].write_ply(base + '_in.ply', points)
     subprocess.run([args.program, 'mesh', base + '_in.ply', '-o', base + '.ply', '--report', base + '.json', '--quiet',
                     '--threads', '1'], check=True)
     topology = sys.modules['mesh_quality'].topology(*run.read_any(base + '.ply'))[0]
@@ -41,21 +40,40 @@ def reached(name, seed, args):
     return components, (2 * components - topology['euler'] - loops) // 2, loops, coverage
 
 
+def of_seed(name, seed, args):
+    """meshed() of one cloud of a body."""
+    base = os.path.join(args.out, '%s %d' % (name, seed)).replace(' ', '_')
+    return meshed(base, shapes.make(name, seed).points, args)
+
+
+def faults(body, reached):
+    """What of meshed() is not as it must be. @param body its components and genus"""
+    components, genus, loops, coverage = reached
+    found = ['%d components' % components] if components != body[0] else []
+    found += ['genus %d' % genus] if genus != body[1] else []
+    found += ['%d loops' % loops] if loops else []
+    found += ['coverage %.3f' % coverage] if coverage < LEAST_COVERAGE else []
+    return found
+
+
 def row(name, results):
     """@return whether all are right"""
     components, genus = BODIES[name]
-    wrong = {}
-    for seed, (c, g, loops, coverage) in results.items():
-        faults = ['%d components' % c] if c != components else []
-        faults += ['genus %d' % g] if g != genus else []
-        faults += ['%d loops' % loops] if loops else []
-        faults += ['coverage %.3f' % coverage] if coverage < LEAST_COVERAGE else []
-        if faults:
-            wrong[seed] = ', '.join(faults)
-    told = '; '.join('%d: %s' % item for item in wrong.items())
+    wrong = {seed: faults(BODIES[name], reached) for seed, reached in results.items()}
+    wrong = {seed: found for seed, found in wrong.items() if found}
+    told = '; '.join('%d: %s' % (seed, ', '.join(found)) for seed, found in wrong.items())
     print('| %s | %d, %d | %d of %d | %s |' % (name, components, genus, len(results) - len(wrong), len(results), told),
           flush=True)
     return not wrong
+
+
+def are_there(args, name):
+    """Whether what a script needs is; else it is told. @param name the script's"""
+    for needed in (args.program, os.path.join(args.shared, 'eval', 'mesh_quality.py')):
+        if not os.path.exists(needed):
+            print('%s: %s is not there' % (name, needed), file=sys.stderr)
+            return False
+    return True
 
 
 def main():
@@ -67,10 +85,8 @@ def main():
     parser.add_argument('--jobs', type=int, default=os.cpu_count(), help='meshed at a time')
     parser.add_argument('--only', action='append', help="a part of a body's name")
     args = parser.parse_args()
-    for needed in (args.program, os.path.join(args.shared, 'eval', 'mesh_quality.py')):
-        if not os.path.exists(needed):
-            print('seeds.py: %s is not there' % needed, file=sys.stderr)
-            return 2
+    if not are_there(args, 'seeds.py'):
+        return 2
     os.makedirs(args.out, exist_ok=True)
     run.load_judge(args.shared)
     seeds = range(1, args.seeds + 1)
@@ -81,7 +97,7 @@ def main():
         if args.only and not any(part in name for part in args.only):
             continue
         with ThreadPoolExecutor(args.jobs) as pool:
-            results = dict(zip(seeds, pool.map(lambda seed: reached(name, seed, args), seeds)))
+            results = dict(zip(seeds, pool.map(lambda seed: of_seed(name, seed, args), seeds)))
         all_right = row(name, results) and all_right
     return 0 if all_right else 1
 
