@@ -63,12 +63,6 @@ constexpr std::size_t kGrain = 256;
 constexpr std::size_t kMinPiece = 12;
 constexpr std::size_t kMinPieceOfBodies = 40;
 
-/// How fronts grow.
-struct Growth {
-  GrowOverOptions options;
-  std::optional<VoteGrid> votes;  ///< that options refer to
-};
-
 Box region_of(const TriangleMesh& mesh, double h) {
   Box region = bounds_of(mesh);
   region.lower -= Vec3(kPart * h);
@@ -166,18 +160,21 @@ double spacing_of(const std::vector<Vec3>& places, const PointGrid& cloud, doubl
 
 /// Grows over points, and once more from the start where that goes on inside out: not with faces
 /// there of which the points look out of the back.
+/// @param options get the votes there, too
+/// @param votes those of the options, if there are any
 std::size_t grow_outwards(TriangleMesh& mesh, std::span<const Vec3> near, const SeenPoints& seen,
-                          Growth& growth, const Progress& progress) {
-  const double h = growth.options.pixel_size;
+                          GrowOverOptions& options, std::optional<VoteGrid>& votes,
+                          const Progress& progress) {
+  const double h = options.pixel_size;
   const TriangleMesh start = mesh;
-  std::size_t count = grow_over(mesh, near, growth.options, progress);
+  const std::size_t count = grow_over(mesh, near, options, progress);
   const std::vector<Vec3> wrong = grown_inside_out(mesh, start.triangles.size(), seen, h);
   if (wrong.empty()) return count;
-  growth.votes.emplace(seen, points_near(near, grid_of(wrong, kAroundWrong * h), kAroundWrong * h),
-                       kOwnPoints * h);
-  growth.options.votes = &*growth.votes;
+  const double around = kAroundWrong * h;
+  votes.emplace(seen, points_near(near, grid_of(wrong, around), around), kOwnPoints * h);
+  options.votes = &*votes;
   mesh = start;
-  return grow_over(mesh, near, growth.options, progress);
+  return grow_over(mesh, near, options, progress);
 }
 
 }  // namespace
@@ -206,15 +203,16 @@ std::size_t regrow(TriangleMesh& mesh, const SeenPoints& seen, const PointGrid& 
   drop_shreds(mesh, seen.votes.empty() ? kMinPiece : kMinPieceOfBodies);
   FacePart part = part_near(mesh, places, kPart * h);
   if (part.mesh.empty()) return 0;  // they are of another body, inside of this one
-  Growth growth{.options = {.pixel_size = h, .off_mesh = off_mesh}};
+  GrowOverOptions grow{.pixel_size = h, .off_mesh = off_mesh};
   const double spacing = spacing_of(left_out, grid, h);
   const bool is_sparse = spacing > kSparse * h, is_very_sparse = spacing > kVerySparse * h;
-  if (is_sparse)
-    growth.options.void_radius = is_very_sparse ? kVoidRadiusInVerySparse : kVoidRadius;
-  std::size_t count = options.only_outwards ? grow_outwards(part.mesh, near, seen, growth, progress)
-                                            : grow_over(part.mesh, near, growth.options, progress);
+  if (is_sparse) grow.void_radius = is_very_sparse ? kVoidRadiusInVerySparse : kVoidRadius;
+  std::optional<VoteGrid> votes;
+  std::size_t count = options.only_outwards
+                          ? grow_outwards(part.mesh, near, seen, grow, votes, progress)
+                          : grow_over(part.mesh, near, grow, progress);
   if (is_sparse && !is_very_sparse)
-    count += restart_fronts(part.mesh, near, places, growth.options, progress);
+    count += restart_fronts(part.mesh, near, places, grow, progress);
   put_back(std::move(part), mesh);
   clean_topology(mesh);
   return count;
