@@ -22,8 +22,10 @@ namespace {
 constexpr double kTogether = 1.0;
 /// In square h: less is left without a point by chance.
 constexpr double kMinArea = 1.0;
-/// In h: how near to the faces the wall of a hole is.
+/// In h: how far from the mesh a point of a wall is; how near to the faces the wall.
+constexpr double kOffMesh = 0.6;
 constexpr double kWallReach = 2.0;
+constexpr std::size_t kMinWall = 12;
 /// Of the points there.
 constexpr double kMaxWallShare = 0.5;
 /// In h: in which points tell the noise.
@@ -103,9 +105,9 @@ bool is_clean(const std::vector<Vec3>& wall, const PointGrid& points, double h) 
 }  // namespace
 
 PaperedHoles find_papered_holes(std::span<const Vec3> points, const TriangleMesh& mesh,
-                                const PaperedHoleOptions& options) {
+                                double pixel_size) {
   if (mesh.empty() || points.empty()) return {};
-  const double h = options.pixel_size;
+  const double h = pixel_size;
   Box region = bounds_of(mesh);
   region.lower -= Vec3(kRegionMargin * h);
   region.upper += Vec3(kRegionMargin * h);
@@ -114,7 +116,7 @@ PaperedHoles find_papered_holes(std::span<const Vec3> points, const TriangleMesh
   if (bare.centers.empty()) return {};
   const std::vector<Vec3> near = points_near(points, PointGrid(bare.centers, region, h), kNear * h);
   const PointGrid around(near, region, 0.5 * h);
-  const PointGrid left_out(left_out_points(near, mesh, options.off_mesh * h), region, 0.5 * h);
+  const PointGrid left_out(left_out_points(near, mesh, kOffMesh * h), region, 0.5 * h);
 
   PaperedHoles holes;
   for (const Place& place : places_of(bare.centers, bare.areas, kTogether * h)) {
@@ -122,7 +124,7 @@ PaperedHoles find_papered_holes(std::span<const Vec3> points, const TriangleMesh
     const Sphere reach{place.center, place.radius + kWallReach * h};
     const std::vector<Vec3> wall = points_in(reach, left_out);
     const auto most = kMaxWallShare * static_cast<double>(points_in(reach, around).size());
-    if (wall.size() < options.min_wall || static_cast<double>(wall.size()) > most) continue;
+    if (wall.size() < kMinWall || static_cast<double>(wall.size()) > most) continue;
     if (is_clean(wall, around, h)) holes.places.push_back({place.center, place.radius + kBent * h});
   }
   const SphereSet set(holes.places);
