@@ -20,6 +20,7 @@ import open3d
 import boundary_check
 import run
 import seeds
+import shapes
 
 PIXEL_PER_SPACING = 1.3  # of clouds of so few points: core/plan/spacing.h
 NARROW = 2.1             # pixel sides
@@ -145,17 +146,12 @@ def narrow_share(vertices, faces, limit):
     return max(shares)
 
 
-def area(vertices, faces):
-    a, b, c = (vertices[faces[:, k]] for k in range(3))
-    return np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
-
-
 def resolvable_parts(first, count, points):
     """(seed, vertices, faces) of the first `count` parts without narrow walls or gaps."""
     seed = first
     while count > 0:
         vertices, faces = part(seed)
-        pixel = PIXEL_PER_SPACING * math.sqrt(area(vertices, faces) / points)
+        pixel = PIXEL_PER_SPACING * math.sqrt(shapes.areas(vertices, faces).sum() / points)
         if narrow_share(vertices, faces, NARROW * pixel) < NARROW_SHARE:
             count -= 1
             yield seed, vertices, faces

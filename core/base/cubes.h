@@ -47,15 +47,21 @@ inline void sort_cubes(std::vector<Cube>& cubes) {
   return static_cast<std::size_t>(found - cubes.begin());
 }
 
+/// Calls visit(cube) for a cube and the 26 that touch it.
+template <class Visit>
+void for_each_cube_around(const Cube& cube, const Visit& visit) {
+  for (int offset = 0; offset < 27; ++offset) {
+    visit(Cube{cube[0] + offset % 3 - 1, cube[1] + offset / 3 % 3 - 1, cube[2] + offset / 9 - 1});
+  }
+}
+
 /// Calls visit(number) for a cube and those that touch it, as far as they are among sorted ones.
 template <class Visit>
 void for_each_cube_around(const std::vector<Cube>& cubes, const Cube& cube, const Visit& visit) {
-  for (int offset = 0; offset < 27; ++offset) {
-    const Cube other{cube[0] + offset % 3 - 1, cube[1] + offset / 3 % 3 - 1,
-                     cube[2] + offset / 9 - 1};
+  for_each_cube_around(cube, [&](const Cube& other) {
     const std::size_t number = find_cube(cubes, other);
     if (number < cubes.size()) visit(number);
-  }
+  });
 }
 
 }  // namespace rangezip

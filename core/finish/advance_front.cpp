@@ -210,9 +210,7 @@ class Front {
   }
 
   [[nodiscard]] bool looks_back(const Triangle& face) const {
-    if (votes_ == nullptr) return false;
-    const Vec3 back = -unit_normal(mesh_.positions, face);
-    return votes_->around(centroid_of(mesh_.positions, face)).look_toward(back);
+    return votes_ != nullptr && votes_->look_out_of_back(mesh_.positions, face);
   }
 
   /// Whether a vertex is on the boundary loop of border edge (a, b), if that is short.

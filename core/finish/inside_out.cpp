@@ -1,7 +1,5 @@
 #include "core/finish/inside_out.h"
 
-#include <cstddef>
-
 #include "core/finish/votes_near.h"
 
 namespace rangezip {
@@ -16,10 +14,8 @@ std::vector<std::uint8_t> inside_out_faces(const TriangleMesh& mesh,
   for (const std::uint32_t f : faces)
     places.push_back(centroid_of(mesh.positions, mesh.triangles[f]));
   const VoteGrid votes(seen, places, radius);
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    const Vec3 back = -unit_normal(mesh.positions, mesh.triangles[faces[i]]);
-    flags[faces[i]] = votes.around(places[i]).look_toward(back) ? 1 : 0;
-  }
+  for (const std::uint32_t f : faces)
+    flags[f] = votes.look_out_of_back(mesh.positions, mesh.triangles[f]) ? 1 : 0;
   return flags;
 }
 

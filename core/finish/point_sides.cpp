@@ -55,12 +55,6 @@ std::array<Directions, kNeighbors> other_sides() {
 using CubeMap = std::unordered_map<Cube, Directions, CubeHash>;
 using CubeSet = std::unordered_set<Cube, CubeHash>;
 
-template <class Visit>
-void for_each_cube_around(const Cube& cube, const Visit& visit) {
-  for (int k = 0; k < kNeighbors; ++k)
-    visit(Cube{cube[0] + k % 3 - 1, cube[1] + k / 3 % 3 - 1, cube[2] + k / 9 - 1});
-}
-
 /// Which way faces do, cube by cube, with the cubes around.
 CubeMap directions_around(const TriangleMesh& mesh, const std::vector<Vec3>& normals, double side) {
   CubeMap own;

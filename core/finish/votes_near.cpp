@@ -11,13 +11,6 @@ constexpr double kClearly = 0.25;
 constexpr double kFullVote = 127.0;
 constexpr double kLeastVote = 0.05 * kFullVote;
 
-/// A cube, and those that touch it.
-template <class Visit>
-void for_each_around(const Cube& center, const Visit& visit) {
-  for (int k = 0; k < 27; ++k)
-    visit(Cube{center[0] + k % 3 - 1, center[1] + k / 3 % 3 - 1, center[2] + k / 9 - 1});
-}
-
 }  // namespace
 
 bool VotesNear::look_toward(const Vec3& unit) const {
@@ -29,7 +22,7 @@ bool VotesNear::look_toward(const Vec3& unit) const {
 VoteGrid::VoteGrid(const SeenPoints& seen, std::span<const Vec3> places, double radius)
     : seen_(seen), radius_(radius) {
   for (const Vec3& place : places)
-    for_each_around(cube_of(place, radius), [&](const Cube& cube) { points_in_[cube]; });
+    for_each_cube_around(cube_of(place, radius), [&](const Cube& cube) { points_in_[cube]; });
   const auto is_near = flags_of(seen.votes.size(), [&](std::size_t p) {
     return points_in_.contains(cube_of(seen.points[p], radius));
   });
@@ -38,9 +31,13 @@ VoteGrid::VoteGrid(const SeenPoints& seen, std::span<const Vec3> places, double 
   }
 }
 
+bool VoteGrid::look_out_of_back(const std::vector<Vec3>& positions, const Triangle& face) const {
+  return around(centroid_of(positions, face)).look_toward(-unit_normal(positions, face));
+}
+
 VotesNear VoteGrid::around(const Vec3& place) const {
   VotesNear near;
-  for_each_around(cube_of(place, radius_), [&](const Cube& cube) {
+  for_each_cube_around(cube_of(place, radius_), [&](const Cube& cube) {
     const auto found = points_in_.find(cube);
     if (found == points_in_.end()) return;
     for (const std::uint32_t p : found->second) {

@@ -9,6 +9,7 @@
 #include "core/base/cubes.h"
 #include "core/base/geometry.h"
 #include "core/finish/seen_points.h"
+#include "core/mesh/triangle_mesh.h"
 
 namespace rangezip {
 
@@ -32,6 +33,10 @@ class VoteGrid {
 
   /// Of the points within the radius, as far as they are kept.
   [[nodiscard]] VotesNear around(const Vec3& place) const;
+
+  /// Whether the points around a face's centroid look out of its back: it faces the wrong way.
+  [[nodiscard]] bool look_out_of_back(const std::vector<Vec3>& positions,
+                                      const Triangle& face) const;
 
  private:
   SeenPoints seen_;
