@@ -35,6 +35,8 @@ constexpr std::size_t kBeside = 4;
 /// In h: so much of what is turned goes where it continues the other: no seam has joined the two,
 /// and noise lets them lie over each other.
 constexpr double kOverlap = 1.0;
+/// One in so many places of its boundary tells of a component; in fewer it may only touch others.
+constexpr std::size_t kLeastMet = 8;
 /// How far the way across may rise over the plane of a face: of its length, and in h.
 constexpr double kMaxSlope = 0.5;
 constexpr double kRoughness = 0.25;
@@ -186,7 +188,8 @@ class Orienter {
         next.pop();
         if (is_decided[c] != 0) continue;
         is_decided[c] = 1;
-        is_turned[c] = votes[c].tell_to_turn() ? 1 : 0;
+        const bool is_told = kLeastMet * votes[c].all >= borders[c];
+        is_turned[c] = is_told && votes[c].tell_to_turn() ? 1 : 0;
         for (const Meeting& meeting : meetings[c]) {
           const std::uint32_t other = meeting.other;
           if (is_decided[other] != 0) continue;

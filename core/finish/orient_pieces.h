@@ -16,8 +16,10 @@ namespace rangezip {
 /// Where the boundaries of two components run within 3 h of each other, the faces at both show
 /// whether one surface continues the other: they end towards each other, and what lies between goes
 /// on in their planes. From the largest component on, always the one is decided that comes near
-/// those that are at most places, as many as half of its boundary has vertices: it is turned if at
-/// a third of these it continues them, facing the other way, and hardly anywhere facing the same.
+/// those that are at most places, as many as half of its boundary has vertices, and if there is
+/// none, the next largest: it is turned if it comes near others at an eighth of its boundary, and
+/// at a third of these places continues them, facing the other way, and hardly anywhere facing the
+/// same.
 /// The two sides of a plate, whose boundaries end the same way, stay as they are, and so do two
 /// walls of which each has a part only. What is turned then ends 1 h before what it continues: no
 /// seam has joined the two, and where noise lets one lie over the other, nothing else could.

@@ -135,6 +135,20 @@ TEST_CASE("where the largest piece faces inwards, so do all") {
   REQUIRE(lacks_only_joints(mesh, inwards, {0.6}));
 }
 
+TEST_CASE("a piece that meets another along a side is turned, one that does in a place stays") {
+  const auto [width, count] = GENERATE(table<int, std::size_t>({{24, 1U}, {3, 0U}}));
+  CAPTURE(width);
+  TriangleMesh mesh;
+  add_sheet(mesh, 0.0, 0.0, 30, true);
+  TriangleMesh tongue;  // from the middle of a side of the sheet to the piece
+  add_sheet(tongue, 30.5, 0.0, 24, false);
+  const double low = 12.0 - 0.5 * width, high = 12.0 + 0.5 * width;
+  testing::cut_where(
+      tongue, [&](const Vec3& p) { return p.x < 34.0 && (p.y < low - 0.1 || p.y > high + 0.1); });
+  testing::append(mesh, tongue);
+  REQUIRE(orient_pieces(mesh, 0.6) == count);
+}
+
 TEST_CASE("a turned piece ends before what it continues, though it lay over its rim") {
   TriangleMesh mesh;
   add_sheet(mesh, 0.0, 0.0, 30, true);
