@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/finish/air_bridges.h"
 #include "core/finish/boundary_loops.h"
 #include "core/finish/clean_topology.h"
 #include "core/finish/coarsen.h"
@@ -107,10 +108,15 @@ std::size_t count_loops(const TriangleMesh& mesh) {
   return boundary_loops(CornerTable(mesh.triangles, mesh.positions.size())).size();
 }
 
-std::size_t count_components(const TriangleMesh& mesh) {
-  const std::vector<std::uint32_t> component =
-      components_of(CornerTable(mesh.triangles, mesh.positions.size()));
-  return component.empty() ? 0 : 1 + *std::max_element(component.begin(), component.end());
+/// Components of so many faces at least: scraps come and go.
+std::size_t count_components(const TriangleMesh& mesh, std::size_t min_faces) {
+  std::vector<std::size_t> faces;
+  for (const std::uint32_t c : components_of(CornerTable(mesh.triangles, mesh.positions.size()))) {
+    if (c >= faces.size()) faces.resize(c + 1, 0);
+    ++faces[c];
+  }
+  return static_cast<std::size_t>(std::count_if(
+      faces.begin(), faces.end(), [&](std::size_t count) { return count >= min_faces; }));
 }
 
 /// What growing works with.
@@ -169,12 +175,13 @@ void grow_in_one(TriangleMesh& mesh, const Growth& growth, FinishReport& report)
   const FinishReport before = report;
   grow_and_close(mesh, growth, RegrowOptions{}.in_the_way, report);
   if (report.regrown_faces == 0) return;
-  const std::size_t parts = count_components(mesh);
-  if (parts <= count_components(start)) return;
+  const std::size_t scrap = growth.options.min_component;
+  const std::size_t parts = count_components(mesh, scrap);
+  if (parts <= count_components(start, scrap)) return;
   TriangleMesh again = std::move(start);
   FinishReport report_again = before;
   grow_and_close(again, growth, kFarInTheWay, report_again);
-  if (count_components(again) >= parts || count_loops(again) > count_loops(mesh)) return;
+  if (count_components(again, scrap) >= parts || count_loops(again) > count_loops(mesh)) return;
   mesh = std::move(again);
   report = report_again;
 }
@@ -408,6 +415,8 @@ FinishResult finish(TriangleMesh mesh, const SeenPoints& cloud, const FinishOpti
   if (result.report.turned_pieces > 0) close_joints(mesh, points, options, result.report, progress);
   if (!cloud.votes.empty()) result.report.papered_faces += drop_faces_in_air(mesh, points, h);
   result.report.papered_faces += drop_papered_faces(mesh, points, cloud, h);
+  if (!cloud.votes.empty())
+    result.report.papered_faces += drop_air_bridges(mesh, points, h, options.min_component);
   grow_in_one(mesh, {given ? &*given : nullptr, cloud, points, options, progress}, result.report);
   given.reset();
   remove_thin_handles(mesh, points, options, result.report, progress);

@@ -44,18 +44,12 @@ std::optional<double> spacing_at(const PointGrid& cloud, const Vec3& point, doub
   return std::sqrt(*last * kPi / static_cast<double>(kNeighbors));
 }
 
-bool is_supported(const TriangleMesh& mesh, const Triangle& face, const PointGrid& cloud,
-                  double h) {
+bool has_long_side(const TriangleMesh& mesh, const Triangle& face, double length) {
   const Vec3 &a = mesh.positions[face[0]], &b = mesh.positions[face[1]],
              &c = mesh.positions[face[2]];
-  const double long_side = 2.0 * kFaceSupport.pixels * h;
   const double longest =
       std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)});
-  if (longest <= long_side * long_side) return true;
-  const std::array<Vec3, 4> places{(a + b + c) / 3.0, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)};
-  return std::all_of(places.begin(), places.end(), [&](const Vec3& place) {
-    return is_supported(cloud, place, h, kFaceSupport);
-  });
+  return longest > length * length;
 }
 
 /// Drops the faces that `is_dropped` names, asked in parallel. @return how many went
@@ -83,6 +77,16 @@ bool is_supported(const PointGrid& cloud, const Vec3& place, double pixel_size,
   return !spacing || glm::length(*nearest - place) <= reach.spacings * *spacing;
 }
 
+bool is_supported(const PointGrid& cloud, const TriangleMesh& mesh, const Triangle& face,
+                  double pixel_size, const SupportReach& reach) {
+  const Vec3 &a = mesh.positions[face[0]], &b = mesh.positions[face[1]],
+             &c = mesh.positions[face[2]];
+  const std::array<Vec3, 4> places{(a + b + c) / 3.0, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)};
+  return std::all_of(places.begin(), places.end(), [&](const Vec3& place) {
+    return is_supported(cloud, place, pixel_size, reach);
+  });
+}
+
 std::optional<double> spacing_near(const PointGrid& cloud, const Vec3& place, double pixel_size) {
   const double farthest = kFarthest * pixel_size;
   const std::optional<Vec3> nearest = nearest_within(cloud, place, farthest);
@@ -96,8 +100,11 @@ std::size_t drop_unsupported_faces(TriangleMesh& mesh, std::span<const Vec3> clo
   region.lower -= Vec3(kFarthest * pixel_size);
   region.upper += Vec3(kFarthest * pixel_size);
   const PointGrid points(cloud, region, kFaceSupport.pixels * pixel_size);
-  const std::size_t dropped = drop_faces(
-      mesh, [&](const Triangle& face) { return !is_supported(mesh, face, points, pixel_size); });
+  const double long_side = 2.0 * kFaceSupport.pixels * pixel_size;
+  const std::size_t dropped = drop_faces(mesh, [&](const Triangle& face) {
+    return has_long_side(mesh, face, long_side) &&
+           !is_supported(points, mesh, face, pixel_size, kFaceSupport);
+  });
   remove_unused_vertices(mesh);
   return dropped;
 }

@@ -30,6 +30,10 @@ inline constexpr SupportReach kCloseSupport{.pixels = 0.75, .spacings = 1.0};
 [[nodiscard]] bool is_supported(const PointGrid& cloud, const Vec3& place, double pixel_size,
                                 const SupportReach& reach);
 
+/// The same of the centroid of a face and the middles of its sides.
+[[nodiscard]] bool is_supported(const PointGrid& cloud, const TriangleMesh& mesh,
+                                const Triangle& face, double pixel_size, const SupportReach& reach);
+
 /// Mean distance of neighbouring points on the surface next to a place, from the 16 around the
 /// nearest point; nothing if that is farther than 6 h, or those reach farther.
 /// @param pixel_size h, model units

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "core/mesh/mesh_report.h"
+#include "tests/core/finish/bridged_sheets.h"
 #include "tests/core/finish/shapes.h"
 #include "tests/support/shapes.h"
 
@@ -75,29 +76,12 @@ TEST_CASE("two faces that join two bodies through the air go, those on the bodie
           "[finish]") {
   const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
   CAPTURE(seed);
-  constexpr double kGap = 4.0;
   std::mt19937_64 engine(seed);
-  TriangleMesh mesh;
-  std::vector<Vec3> points;
-  for (const double z : {0.0, kGap}) {
-    const TriangleMesh sheet = shapes::square_sheet(10);
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    for (const Vec3& p : sheet.positions)
-      mesh.positions.push_back(p + Vec3(0.0, 0.0, z));
-    for (const auto& [a, b, c] : sheet.triangles)
-      mesh.triangles.push_back({first + a, first + b, first + c});
-    for (int i = 0; i < 800; ++i)  // 8 a square
-      points.push_back(
-          {testing::uniform(engine, -5.0, 5.0), testing::uniform(engine, -5.0, 5.0), z});
-  }
-  // From an edge of the lower sheet's border to the same one above.
-  const std::uint32_t a = 5, b = 6, above = 121;
-  mesh.triangles.push_back({b, a, a + above});
-  mesh.triangles.push_back({b, a + above, b + above});
-  REQUIRE(report_mesh(mesh).components == 1);
-  const PointGrid cloud(points, {Vec3(-10.0), Vec3(10.0)}, 0.7);
-  CHECK(drop_faces_in_air(mesh, cloud, 1.0) == 2);
-  CHECK(report_mesh(mesh).components == 2);
+  testing::BridgedSheets sheets = testing::bridged_sheets(4.0, 8, engine);
+  REQUIRE(report_mesh(sheets.mesh).components == 1);
+  const PointGrid cloud(sheets.points, {Vec3(-10.0), Vec3(10.0)}, 0.7);
+  CHECK(drop_faces_in_air(sheets.mesh, cloud, 1.0) == 2);
+  CHECK(report_mesh(sheets.mesh).components == 2);
 }
 
 TEST_CASE("without points, or faces, nothing is dropped", "[finish]") {
