@@ -1,7 +1,6 @@
 #include "core/reconstruct/papered_holes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -13,6 +12,7 @@
 #include "core/finish/places_near.h"
 #include "core/finish/point_grid.h"
 #include "core/finish/unsupported_faces.h"
+#include "core/mesh/coverage.h"
 #include "core/mesh/places.h"
 
 namespace rangezip {
@@ -22,10 +22,12 @@ namespace {
 constexpr double kTogether = 1.0;
 /// In square h: less is left without a point by chance.
 constexpr double kMinArea = 1.0;
-/// In h: how far from the mesh a point of a wall is; how near to the faces the wall.
-constexpr double kOffMesh = 0.6;
+/// In h: how near to the faces the wall of a hole is.
 constexpr double kWallReach = 2.0;
-constexpr std::size_t kMinWall = 12;
+/// In h, and points: the wall of a hole, but no sharp edge that scans cut off, is so far from the
+/// mesh in places.
+constexpr double kDeep = 0.6;
+constexpr std::size_t kMinDeep = 5;
 /// Of the points there.
 constexpr double kMaxWallShare = 0.5;
 /// In h: in which points tell the noise.
@@ -43,23 +45,14 @@ struct Faces {
   std::vector<double> areas;
 };
 
-std::array<Vec3, 4> places_on(const TriangleMesh& mesh, const Triangle& face) {
-  const Vec3 &a = mesh.positions[face[0]], &b = mesh.positions[face[1]],
-             &c = mesh.positions[face[2]];
-  return {(a + b + c) / 3.0, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)};
-}
-
 Faces faces_without_points(const TriangleMesh& mesh, const PointGrid& cloud, double h) {
   const std::vector<std::uint8_t> is_bare = flags_of(mesh.triangles.size(), [&](std::size_t f) {
-    const std::array<Vec3, 4> places = places_on(mesh, mesh.triangles[f]);
-    return !std::all_of(places.begin(), places.end(), [&](const Vec3& place) {
-      return is_supported(cloud, place, h, kCloseSupport);
-    });
+    return !is_supported(cloud, mesh, mesh.triangles[f], h, kCloseSupport);
   });
   Faces bare;
   for (std::size_t f = 0; f < is_bare.size(); ++f) {
     if (is_bare[f] == 0) continue;
-    bare.centers.push_back(places_on(mesh, mesh.triangles[f])[0]);
+    bare.centers.push_back(centroid_of(mesh.positions, mesh.triangles[f]));
     bare.areas.push_back(area_of_face(mesh.positions, mesh.triangles[f]));
   }
   return bare;
@@ -105,9 +98,9 @@ bool is_clean(const std::vector<Vec3>& wall, const PointGrid& points, double h) 
 }  // namespace
 
 PaperedHoles find_papered_holes(std::span<const Vec3> points, const TriangleMesh& mesh,
-                                double pixel_size) {
+                                const PaperedHoleOptions& options) {
   if (mesh.empty() || points.empty()) return {};
-  const double h = pixel_size;
+  const double h = options.pixel_size;
   Box region = bounds_of(mesh);
   region.lower -= Vec3(kRegionMargin * h);
   region.upper += Vec3(kRegionMargin * h);
@@ -116,7 +109,9 @@ PaperedHoles find_papered_holes(std::span<const Vec3> points, const TriangleMesh
   if (bare.centers.empty()) return {};
   const std::vector<Vec3> near = points_near(points, PointGrid(bare.centers, region, h), kNear * h);
   const PointGrid around(near, region, 0.5 * h);
-  const PointGrid left_out(left_out_points(near, mesh, kOffMesh * h), region, 0.5 * h);
+  const std::vector<Vec3> off = left_out_points(near, mesh, options.off_mesh * h);
+  const PointGrid left_out(off, region, 0.5 * h);
+  const PointGrid deep(points_off(off, mesh, kDeep * h), region, 0.5 * h);
 
   PaperedHoles holes;
   for (const Place& place : places_of(bare.centers, bare.areas, kTogether * h)) {
@@ -124,7 +119,8 @@ PaperedHoles find_papered_holes(std::span<const Vec3> points, const TriangleMesh
     const Sphere reach{place.center, place.radius + kWallReach * h};
     const std::vector<Vec3> wall = points_in(reach, left_out);
     const auto most = kMaxWallShare * static_cast<double>(points_in(reach, around).size());
-    if (wall.size() < kMinWall || static_cast<double>(wall.size()) > most) continue;
+    if (wall.size() < options.min_wall || static_cast<double>(wall.size()) > most) continue;
+    if (points_in(reach, deep).size() < kMinDeep) continue;
     if (is_clean(wall, around, h)) holes.places.push_back({place.center, place.radius + kBent * h});
   }
   const SphereSet set(holes.places);

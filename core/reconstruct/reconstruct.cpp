@@ -42,6 +42,9 @@ constexpr double kCoverPixel = 0.5;
 /// Rounds of views of papered holes; the second sees what the first left out, so many h away.
 constexpr int kHoleRounds = 2;
 constexpr double kLeftOutOfHole = 0.4;
+/// In h: the spacing of points through which half pixels see, but over which fronts grow.
+constexpr double kSparse = 0.6;
+constexpr double kVerySparse = 0.9;
 constexpr double kMinNewInHoles = 30;          ///< points that such a view must add
 constexpr std::size_t kHoleSamples = 200'000;  ///< drawn to plan them: what hides a place is large
 /// In h: around a place so much more is scanned than was erased.
@@ -158,6 +161,8 @@ class Run {
     if (recipe_.has_points) recipe_.one_sided = is_open_sheet(rasterizer_, scene_points());
     noise_ = resolution.noise;
     is_of_cloud_ = resolution.is_of_cloud;
+    is_sparse_ = resolution.spacing > kSparse * recipe_.pixel_size &&
+                 resolution.spacing <= kVerySparse * recipe_.pixel_size;
     is_clean_ = resolution.noise <= kMaxHoleNoise * recipe_.pixel_size;
     result_.report.pixel_size = recipe_.pixel_size;
     book("resolution");
@@ -290,21 +295,32 @@ class Run {
   }
 
   /// Where scans have papered over holes, the mesh goes, and the places are scanned again with
-  /// finer pixels. Last, since scans with the usual pixels would close the holes again.
+  /// finer pixels. Last, since scans with the usual pixels would close the holes again. Where
+  /// points are sparse, finer pixels see through walls, and the places are left to regrow() in the
+  /// finish; but not beside narrow gaps, where the rim of a wall may be a gap's, and stays open.
   void rescan_papered_holes() {
     if (!may_add_views() || !is_plain_cloud() || !is_clean_) return;
     const double h = recipe_.pixel_size;
-    const PaperedHoles holes = find_papered_holes(samples_, *session_.mesh(), h);
+    const bool are_left_to_fronts = is_sparse_ && !has_narrow_gaps_ && options_.finish;
+    const PaperedHoles holes = find_papered_holes(
+        samples_, *session_.mesh(),
+        are_left_to_fronts ? of_sparse_points(h) : PaperedHoleOptions{.pixel_size = h});
     if (holes.places.empty()) return;
     const std::vector<Vec3> uncovered = uncovered_samples();
     const ScanRecipe recipe = erase_for_rescan(holes.places, kCoverPixel * h);
-    std::vector<Vec3> targets = holes.points;
+    if (!are_left_to_fronts) scan_holes(holes.points, recipe, uncovered, holes.places);
+    book("papered holes");
+  }
+
+  /// @param uncovered uncovered_samples() before the mesh was taken off
+  void scan_holes(const std::vector<Vec3>& points, const ScanRecipe& recipe,
+                  const std::vector<Vec3>& uncovered, const std::vector<Sphere>& places) {
+    std::vector<Vec3> targets = points;
     for (int round = 0; round < kHoleRounds && !targets.empty(); ++round) {
       scan_from(views_of(targets, recipe, kHoleSamples, kMinNewInHoles), recipe, fill_scan);
-      targets = left_out_points(holes.points, *session_.mesh(), kLeftOutOfHole * h);
+      targets = left_out_points(points, *session_.mesh(), kLeftOutOfHole * recipe_.pixel_size);
     }
-    recover(uncovered, holes.places);
-    book("papered holes");
+    recover(uncovered, places);
   }
 
   /// Takes the mesh off these places. @return how they are scanned again
@@ -424,6 +440,7 @@ class Run {
   ScanRecipe recipe_;
   double noise_ = 0.0;              ///< of the points, model units
   bool is_of_cloud_ = false;        ///< what the pixels of the planned scans are
+  bool is_sparse_ = false;          ///< the points, so that fronts see more than finer pixels
   bool is_clean_ = true;            ///< enough to scan papered holes again
   double fill_share_ = kFillShare;  ///< of the progress, so far
   bool has_narrow_gaps_ = false;    ///< that the planned views did not reach

@@ -110,6 +110,7 @@ Resolution choose_resolution(const Scene& scene, std::span<const Vec3> samples,
 
   if (has_points) {
     chosen.point_size = point_size_for(*spacing, chosen.pixel_size);
+    chosen.spacing = spacing->median;
     chosen.gap = spacing->gap;
     chosen.noise = spacing->noise;
   }

@@ -14,6 +14,7 @@ struct Resolution {
   double pixel_size = 0.0;   ///< model units
   bool is_of_cloud = false;  ///< no coarser than the points ask for, and not given
   int point_size = 1;        ///< pixels: larger than 1 where the pixel is finer than the spacing
+  double spacing = 0.0;      ///< of points, the median, model units; 0: there are polygons only
   double noise = 0.0;        ///< of points along the normal, model units
   double gap = 0.0;          ///< between contours, model units; 0: the points are spread evenly
   Box bounds;                ///< of the object, without far outliers

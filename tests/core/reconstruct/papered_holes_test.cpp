@@ -43,7 +43,8 @@ TriangleMesh closed_plate() {
 
 TEST_CASE("faces over a hole whose wall is left out are found, with all the hole",
           "[reconstruct]") {
-  const PaperedHoles holes = find_papered_holes(plate_with_hole(3.0), closed_plate(), 1.0);
+  const PaperedHoles holes =
+      find_papered_holes(plate_with_hole(3.0), closed_plate(), {.pixel_size = 1.0});
   REQUIRE(holes.places.size() == 1);
   CHECK(glm::length(holes.places[0].center) < 0.5);
   CHECK(holes.places[0].contains({kRim, 0.0, 0.0}));
@@ -51,8 +52,24 @@ TEST_CASE("faces over a hole whose wall is left out are found, with all the hole
   CHECK_FALSE(holes.points.empty());
 }
 
+TEST_CASE("a wall is as many points as are asked for, as far from the mesh", "[reconstruct]") {
+  constexpr double kDepth = 3.0;
+  const std::vector<Vec3> points = plate_with_hole(kDepth);
+  const auto found = [&](const PaperedHoleOptions& options) {
+    return find_papered_holes(points, closed_plate(), options).places.size();
+  };
+  const auto wall = static_cast<std::size_t>(
+      std::count_if(points.begin(), points.end(), [](const Vec3& p) { return p.z < 0.0; }));
+  CHECK(found(of_sparse_points(1.0)) == 1);
+  CHECK(found({.pixel_size = 1.0, .off_mesh = 1.0}) == 1);
+  CHECK(found({.pixel_size = 1.0, .off_mesh = kDepth}) == 0);
+  CHECK(found({.pixel_size = 1.0, .min_wall = wall / 3}) == 1);
+  CHECK(found({.pixel_size = 1.0, .min_wall = wall}) == 0);
+}
+
 TEST_CASE("a gap in the points without a wall behind it is no hole", "[reconstruct]") {
-  CHECK(find_papered_holes(plate_with_hole(0.0), closed_plate(), 1.0).places.empty());
+  CHECK(
+      find_papered_holes(plate_with_hole(0.0), closed_plate(), {.pixel_size = 1.0}).places.empty());
 }
 
 TEST_CASE("a wall of noise is none", "[reconstruct]") {
@@ -62,12 +79,12 @@ TEST_CASE("a wall of noise is none", "[reconstruct]") {
     const double scale = i / 4 % 2 == 0 ? 0.85 : 1.15;
     if (points[i].z < 0.0) points[i] *= Vec3(scale, scale, 1.0);
   }
-  CHECK(find_papered_holes(points, closed_plate(), 1.0).places.empty());
+  CHECK(find_papered_holes(points, closed_plate(), {.pixel_size = 1.0}).places.empty());
 }
 
 TEST_CASE("without points or faces there are no papered holes", "[reconstruct]") {
-  CHECK(find_papered_holes({}, closed_plate(), 1.0).places.empty());
-  CHECK(find_papered_holes(plate_with_hole(3.0), {}, 1.0).places.empty());
+  CHECK(find_papered_holes({}, closed_plate(), {.pixel_size = 1.0}).places.empty());
+  CHECK(find_papered_holes(plate_with_hole(3.0), {}, {.pixel_size = 1.0}).places.empty());
 }
 
 }  // namespace rangezip
