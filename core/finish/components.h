@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -40,6 +41,18 @@ template <class Joins>
 /// The same, joined over all edges.
 [[nodiscard]] inline std::vector<std::uint32_t> components_of(const CornerTable& table) {
   return components_of(table, [](std::uint32_t) { return true; });
+}
+
+/// How many faces each component has; deleted ones do not count.
+[[nodiscard]] inline std::vector<std::size_t> component_sizes(
+    const std::vector<std::uint32_t>& component) {
+  std::vector<std::size_t> sizes;
+  for (const std::uint32_t c : component) {
+    if (c == CornerTable::kNone) continue;
+    if (c >= sizes.size()) sizes.resize(c + 1, 0);
+    ++sizes[c];
+  }
+  return sizes;
 }
 
 }  // namespace rangezip

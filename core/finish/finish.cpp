@@ -110,13 +110,10 @@ std::size_t count_loops(const TriangleMesh& mesh) {
 
 /// Components of so many faces at least: scraps come and go.
 std::size_t count_components(const TriangleMesh& mesh, std::size_t min_faces) {
-  std::vector<std::size_t> faces;
-  for (const std::uint32_t c : components_of(CornerTable(mesh.triangles, mesh.positions.size()))) {
-    if (c >= faces.size()) faces.resize(c + 1, 0);
-    ++faces[c];
-  }
+  const std::vector<std::size_t> sizes =
+      component_sizes(components_of(CornerTable(mesh.triangles, mesh.positions.size())));
   return static_cast<std::size_t>(std::count_if(
-      faces.begin(), faces.end(), [&](std::size_t count) { return count >= min_faces; }));
+      sizes.begin(), sizes.end(), [&](std::size_t size) { return size >= min_faces; }));
 }
 
 /// What growing works with.

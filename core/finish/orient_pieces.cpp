@@ -114,16 +114,13 @@ std::vector<std::uint32_t> pieces_between_folds(const CornerTable& table,
     return has_cosine(face_area_vector(table, positions, corner / 3),
                       face_area_vector(table, positions, table.across(corner) / 3), kFold);
   });
-  std::vector<std::size_t> sizes(piece.size(), 0);
-  for (const std::uint32_t p : piece)
-    ++sizes[p];
   std::vector<std::pair<std::uint32_t, std::uint32_t>> beside;
   for (std::uint32_t c = 0; c < table.corner_count(); ++c) {
     const std::uint32_t across = table.across(c);
     if (across != CornerTable::kNone && piece[c / 3] != piece[across / 3])
       beside.emplace_back(piece[c / 3], piece[across / 3]);
   }
-  const std::vector<std::uint32_t> whole = wholes_of(sizes, beside);
+  const std::vector<std::uint32_t> whole = wholes_of(component_sizes(piece), beside);
   for (std::uint32_t& p : piece) {
     if (whole[p] != CornerTable::kNone) p = whole[p];
   }
@@ -163,11 +160,8 @@ class Orienter {
         h_(pixel_size),
         table_(parted.mesh.triangles, parted.mesh.positions.size()),
         loops_(boundary_loops(table_)),
-        component_(components_of(table_)) {
-    for (const std::uint32_t c : component_) {
-      if (c >= sizes_.size()) sizes_.resize(c + 1, 0);
-      ++sizes_[c];
-    }
+        component_(components_of(table_)),
+        sizes_(component_sizes(component_)) {
     if (sizes_.size() > 1) contacts_ = find_contacts();
   }
 

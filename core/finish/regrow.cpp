@@ -80,12 +80,10 @@ std::array<Vec3, 7> places_on(const TriangleMesh& mesh, const Triangle& face) {
 void drop_shreds(TriangleMesh& mesh, std::size_t min_faces) {
   const CornerTable table(mesh.triangles, mesh.positions.size());
   const std::vector<std::uint32_t> component = components_of(table);
-  std::vector<std::size_t> faces(component.size(), 0);
-  for (const std::uint32_t c : component)
-    ++faces[c];
+  const std::vector<std::size_t> sizes = component_sizes(component);
   std::vector<std::uint8_t> goes(component.size(), 0);
   for (std::size_t f = 0; f < component.size(); ++f)
-    goes[f] = faces[component[f]] < min_faces ? 1 : 0;
+    goes[f] = sizes[component[f]] < min_faces ? 1 : 0;
   remove_triangles(mesh.triangles, goes);
 }
 
