@@ -8,6 +8,8 @@
 
 #include "core/base/sphere_set.h"
 #include "core/base/symmetric_eigen.h"
+#include "core/finish/components.h"
+#include "core/finish/corner_table.h"
 #include "core/finish/left_out_points.h"
 #include "core/finish/places_near.h"
 #include "core/finish/point_grid.h"
@@ -36,6 +38,7 @@ constexpr double kNoiseRadius = 1.0;
 constexpr double kBent = 1.5;
 /// In h: points farther from all such faces belong to no place.
 constexpr double kNear = 3.0;
+constexpr std::size_t kMinComponent = 100;  ///< faces; less is a scrap
 /// In h: what lies beyond the mesh.
 constexpr double kRegionMargin = 6.0;
 
@@ -95,6 +98,23 @@ bool is_clean(const std::vector<Vec3>& wall, const PointGrid& points, double h) 
   return *quarter <= kMaxHoleNoise * h;
 }
 
+/// Of the components' faces in the places, PaperedHoles::share.
+double largest_share(const TriangleMesh& mesh, const SphereSet& places) {
+  const std::vector<std::uint32_t> component =
+      components_of(CornerTable(mesh.triangles, mesh.positions.size()));
+  const std::vector<std::size_t> sizes = component_sizes(component);
+  std::vector<std::size_t> inside(sizes.size(), 0);
+  for (std::size_t f = 0; f < component.size(); ++f) {
+    if (places.contains(centroid_of(mesh.positions, mesh.triangles[f]))) ++inside[component[f]];
+  }
+  double largest = 0.0;
+  for (std::size_t c = 0; c < sizes.size(); ++c) {
+    if (sizes[c] < kMinComponent) continue;
+    largest = std::max(largest, static_cast<double>(inside[c]) / static_cast<double>(sizes[c]));
+  }
+  return largest;
+}
+
 }  // namespace
 
 PaperedHoles find_papered_holes(std::span<const Vec3> points, const TriangleMesh& mesh,
@@ -126,6 +146,7 @@ PaperedHoles find_papered_holes(std::span<const Vec3> points, const TriangleMesh
   const SphereSet set(holes.places);
   std::copy_if(near.begin(), near.end(), std::back_inserter(holes.points),
                [&](const Vec3& p) { return set.contains(p); });
+  holes.share = largest_share(mesh, set);
   return holes;
 }
 

@@ -32,6 +32,8 @@ struct PaperedHoleOptions {
 struct PaperedHoles {
   std::vector<Sphere> places;  ///< of the faces over a hole, with what they bend around it
   std::vector<Vec3> points;    ///< of the cloud in these places
+  double share = 0.0;  ///< the largest of a component's faces that lie there, 0 to 1; of a hundred
+                       ///< faces at least
 };
 
 /// Finds holes that a mesh of scans has papered over (own). Pixels at the rim of a hole of a few

@@ -45,6 +45,9 @@ constexpr double kLeftOutOfHole = 0.4;
 /// In h: the spacing of points through which half pixels see, but over which fronts grow.
 constexpr double kSparse = 0.6;
 constexpr double kVerySparse = 0.9;
+/// Share of a component: if more is to go, its walls are thin, and fronts would have hardly
+/// anything to start from.
+constexpr double kMostErased = 0.75;
 constexpr double kMinNewInHoles = 30;          ///< points that such a view must add
 constexpr std::size_t kHoleSamples = 200'000;  ///< drawn to plan them: what hides a place is large
 /// In h: around a place so much more is scanned than was erased.
@@ -301,10 +304,14 @@ class Run {
   void rescan_papered_holes() {
     if (!may_add_views() || !is_plain_cloud() || !is_clean_) return;
     const double h = recipe_.pixel_size;
-    const bool are_left_to_fronts = is_sparse_ && !has_narrow_gaps_ && options_.finish;
-    const PaperedHoles holes = find_papered_holes(
-        samples_, *session_.mesh(),
-        are_left_to_fronts ? of_sparse_points(h) : PaperedHoleOptions{.pixel_size = h});
+    PaperedHoles holes;
+    bool are_left_to_fronts = is_sparse_ && !has_narrow_gaps_ && options_.finish;
+    if (are_left_to_fronts) {
+      holes = find_papered_holes(samples_, *session_.mesh(), of_sparse_points(h));
+      are_left_to_fronts = holes.share <= kMostErased;
+    }
+    if (!are_left_to_fronts)
+      holes = find_papered_holes(samples_, *session_.mesh(), {.pixel_size = h});
     if (holes.places.empty()) return;
     const std::vector<Vec3> uncovered = uncovered_samples();
     const ScanRecipe recipe = erase_for_rescan(holes.places, kCoverPixel * h);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "tests/core/finish/shapes.h"
 #include "tests/support/shapes.h"
 
 namespace rangezip {
@@ -50,6 +51,23 @@ TEST_CASE("faces over a hole whose wall is left out are found, with all the hole
   CHECK(holes.places[0].contains({kRim, 0.0, 0.0}));
   CHECK_FALSE(holes.places[0].contains({3.0 * kRim, 0.0, 0.0}));
   CHECK_FALSE(holes.points.empty());
+  CHECK(holes.share > 0.0);
+  CHECK(holes.share < 0.2);
+}
+
+TEST_CASE("of a component that lies in papered holes the share is told, whatever is beside it",
+          "[reconstruct]") {
+  TriangleMesh mesh = closed_plate();
+  std::erase_if(mesh.triangles, [&](const Triangle& face) {
+    return glm::length(centroid_of(mesh.positions, face)) > 2.2 * kRim;
+  });
+  const double alone = find_papered_holes(plate_with_hole(3.0), mesh, {.pixel_size = 1.0}).share;
+  TriangleMesh other = closed_plate();
+  for (Vec3& p : other.positions)
+    p.z += 50.0;
+  testing::append(mesh, other);
+  CHECK(alone > 0.4);
+  CHECK(find_papered_holes(plate_with_hole(3.0), mesh, {.pixel_size = 1.0}).share == alone);
 }
 
 TEST_CASE("a wall is as many points as are asked for, as far from the mesh", "[reconstruct]") {

@@ -193,6 +193,15 @@ TEST_CASE("sparse points keep holes open that are hardly wider than two pixels",
   CHECK(kept <= 48);
 }
 
+TEST_CASE("sparse points of a wall as thin as a pixel are meshed, all of them", "[reconstruct]") {
+  // All of it looks like papered holes: of what fronts are to grow over hardly anything may go.
+  const ReconstructResult result =
+      run(scene_of(shapes::sampled(shapes::plate(0.045), 10'000), shapes::tilt()));
+  check_clean(result);
+  CHECK(result.report.pixel_size < 0.045);
+  CHECK(result.report.coverage.share > 0.97);
+}
+
 TEST_CASE("polygons are scanned as they are: a washer stays closed, of genus 1 and exact",
           "[reconstruct]") {
   const ReconstructResult result =
