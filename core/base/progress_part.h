@@ -17,4 +17,17 @@ namespace rangezip {
   return part;
 }
 
+/// The same, all of it as one stage.
+/// @param stage a literal: it is kept
+[[nodiscard]] inline Progress part_of(const Progress& whole, const char* stage, double begin,
+                                      double end) {
+  Progress named{.stop = whole.stop};
+  if (whole.report) {
+    named.report = [report = whole.report, stage](std::string_view, double share) {
+      report(stage, share);
+    };
+  }
+  return part_of(named, begin, end);
+}
+
 }  // namespace rangezip

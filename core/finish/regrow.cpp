@@ -42,10 +42,6 @@ constexpr double kOwnPoints = 0.75;  ///< in h: those of a face, also beside a g
 /// In h: points farther from the mesh than this are not in it.
 constexpr double kOffMesh = 0.42;
 constexpr double kOffMeshPerNoise = 2.0;
-/// In h: points with a larger spacing leave circles of the front's radius empty by chance; and
-/// those with a still larger one do not tell walls that are 2 h apart.
-constexpr double kSparse = 0.6;
-constexpr double kVerySparse = 0.9;
 /// In h: of circles without points where the front has stopped. A wider one leads across a gap of
 /// 2 h.
 constexpr double kVoidRadius = 1.0;
@@ -203,7 +199,8 @@ std::size_t regrow(TriangleMesh& mesh, const SeenPoints& seen, const PointGrid& 
   if (part.mesh.empty()) return 0;  // they are of another body, inside of this one
   GrowOverOptions grow{.pixel_size = h, .off_mesh = off_mesh};
   const double spacing = spacing_of(left_out, grid, h);
-  const bool is_sparse = spacing > kSparse * h, is_very_sparse = spacing > kVerySparse * h;
+  const bool is_sparse = spacing > kSparseSpacing * h;
+  const bool is_very_sparse = spacing > kVerySparseSpacing * h;
   if (is_sparse) grow.void_radius = is_very_sparse ? kVoidRadiusInVerySparse : kVoidRadius;
   std::optional<VoteGrid> votes;
   std::size_t count = options.only_outwards

@@ -9,6 +9,11 @@
 
 namespace rangezip {
 
+/// In h: points with a larger spacing leave circles of the front's radius empty by chance; and
+/// those with a still larger one do not tell walls that are 2 h apart.
+inline constexpr double kSparseSpacing = 0.6;
+inline constexpr double kVerySparseSpacing = 0.9;
+
 struct RegrowOptions {
   double pixel_size = 0.0;  ///< h, model units; positive
   double in_the_way = 0.9;  ///< in h: faces as near to a point that the mesh does not show go

@@ -38,7 +38,9 @@ constexpr double kNoiseRadius = 1.0;
 constexpr double kBent = 1.5;
 /// In h: points farther from all such faces belong to no place.
 constexpr double kNear = 3.0;
-constexpr std::size_t kMinComponent = 100;  ///< faces; less is a scrap
+/// Of its faces: more are not to go. Less than so many faces are a scrap.
+constexpr double kMostOfComponent = 0.75;
+constexpr std::size_t kMinComponent = 100;
 /// In h: what lies beyond the mesh.
 constexpr double kRegionMargin = 6.0;
 
@@ -98,8 +100,8 @@ bool is_clean(const std::vector<Vec3>& wall, const PointGrid& points, double h) 
   return *quarter <= kMaxHoleNoise * h;
 }
 
-/// Of the components' faces in the places, PaperedHoles::share.
-double largest_share(const TriangleMesh& mesh, const SphereSet& places) {
+/// Whether so much of a component lies in the places that hardly anything would be left of it.
+bool hold_a_component(const SphereSet& places, const TriangleMesh& mesh) {
   const std::vector<std::uint32_t> component =
       components_of(CornerTable(mesh.triangles, mesh.positions.size()));
   const std::vector<std::size_t> sizes = component_sizes(component);
@@ -107,12 +109,11 @@ double largest_share(const TriangleMesh& mesh, const SphereSet& places) {
   for (std::size_t f = 0; f < component.size(); ++f) {
     if (places.contains(centroid_of(mesh.positions, mesh.triangles[f]))) ++inside[component[f]];
   }
-  double largest = 0.0;
   for (std::size_t c = 0; c < sizes.size(); ++c) {
-    if (sizes[c] < kMinComponent) continue;
-    largest = std::max(largest, static_cast<double>(inside[c]) / static_cast<double>(sizes[c]));
+    const double most = kMostOfComponent * static_cast<double>(sizes[c]);
+    if (sizes[c] >= kMinComponent && static_cast<double>(inside[c]) > most) return true;
   }
-  return largest;
+  return false;
 }
 
 }  // namespace
@@ -131,7 +132,8 @@ PaperedHoles find_papered_holes(std::span<const Vec3> points, const TriangleMesh
   const PointGrid around(near, region, 0.5 * h);
   const std::vector<Vec3> off = left_out_points(near, mesh, options.off_mesh * h);
   const PointGrid left_out(off, region, 0.5 * h);
-  const PointGrid deep(points_off(off, mesh, kDeep * h), region, 0.5 * h);
+  const PointGrid deep(options.off_mesh < kDeep ? points_off(off, mesh, kDeep * h) : off, region,
+                       0.5 * h);
 
   PaperedHoles holes;
   for (const Place& place : places_of(bare.centers, bare.areas, kTogether * h)) {
@@ -146,7 +148,13 @@ PaperedHoles find_papered_holes(std::span<const Vec3> points, const TriangleMesh
   const SphereSet set(holes.places);
   std::copy_if(near.begin(), near.end(), std::back_inserter(holes.points),
                [&](const Vec3& p) { return set.contains(p); });
-  holes.share = largest_share(mesh, set);
+  return holes;
+}
+
+std::optional<PaperedHoles> find_holes_for_fronts(std::span<const Vec3> points,
+                                                  const TriangleMesh& mesh, double pixel_size) {
+  PaperedHoles holes = find_papered_holes(points, mesh, of_sparse_points(pixel_size));
+  if (hold_a_component(SphereSet(holes.places), mesh)) return std::nullopt;
   return holes;
 }
 

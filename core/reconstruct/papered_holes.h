@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,8 +33,6 @@ struct PaperedHoleOptions {
 struct PaperedHoles {
   std::vector<Sphere> places;  ///< of the faces over a hole, with what they bend around it
   std::vector<Vec3> points;    ///< of the cloud in these places
-  double share = 0.0;  ///< the largest of a component's faces that lie there, 0 to 1; of a hundred
-                       ///< faces at least
 };
 
 /// Finds holes that a mesh of scans has papered over (own). Pixels at the rim of a hole of a few
@@ -49,5 +48,12 @@ struct PaperedHoles {
 [[nodiscard]] PaperedHoles find_papered_holes(std::span<const Vec3> points,
                                               const TriangleMesh& mesh,
                                               const PaperedHoleOptions& options);
+
+/// Those of sparse points that can be left to fronts: nothing if over three quarters of the faces
+/// of a component (of a hundred faces at least) lie in them. Then it is thin walls that are papered
+/// over, and with all that gone fronts would have hardly anything to start from.
+[[nodiscard]] std::optional<PaperedHoles> find_holes_for_fronts(std::span<const Vec3> points,
+                                                                const TriangleMesh& mesh,
+                                                                double pixel_size);
 
 }  // namespace rangezip

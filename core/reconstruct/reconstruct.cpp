@@ -13,6 +13,7 @@
 #include "core/base/progress_part.h"
 #include "core/base/spread.h"
 #include "core/finish/left_out_points.h"
+#include "core/finish/regrow.h"
 #include "core/mesh/self_intersection.h"
 #include "core/plan/open_sheet.h"
 #include "core/plan/spacing.h"
@@ -42,12 +43,6 @@ constexpr double kCoverPixel = 0.5;
 /// Rounds of views of papered holes; the second sees what the first left out, so many h away.
 constexpr int kHoleRounds = 2;
 constexpr double kLeftOutOfHole = 0.4;
-/// In h: the spacing of points through which half pixels see, but over which fronts grow.
-constexpr double kSparse = 0.6;
-constexpr double kVerySparse = 0.9;
-/// Share of a component: if more is to go, its walls are thin, and fronts would have hardly
-/// anything to start from.
-constexpr double kMostErased = 0.75;
 constexpr double kMinNewInHoles = 30;          ///< points that such a view must add
 constexpr std::size_t kHoleSamples = 200'000;  ///< drawn to plan them: what hides a place is large
 /// In h: around a place so much more is scanned than was erased.
@@ -79,17 +74,6 @@ constexpr double kCheckShare = 0.95;
 
 constexpr double kCountTolerance = 0.025;  ///< of the triangles asked for
 constexpr int kSizeRounds = 8;             ///< with other pixels, until there are as many
-
-/// A part of the caller's progress bar, all of it one stage.
-Progress part_of(const Progress& whole, const char* stage, double begin, double end) {
-  Progress named{.stop = whole.stop};
-  if (whole.report) {
-    named.report = [report = whole.report, stage](std::string_view, double share) {
-      report(stage, share);
-    };
-  }
-  return part_of(named, begin, end);
-}
 
 void check_options(const Scene& scene, const ReconstructOptions& options) {
   if (scene.empty()) throw InvalidArgument("reconstruct: the scene must not be empty");
@@ -164,8 +148,8 @@ class Run {
     if (recipe_.has_points) recipe_.one_sided = is_open_sheet(rasterizer_, scene_points());
     noise_ = resolution.noise;
     is_of_cloud_ = resolution.is_of_cloud;
-    is_sparse_ = resolution.spacing > kSparse * recipe_.pixel_size &&
-                 resolution.spacing <= kVerySparse * recipe_.pixel_size;
+    is_sparse_ = resolution.spacing > kSparseSpacing * recipe_.pixel_size &&
+                 resolution.spacing <= kVerySparseSpacing * recipe_.pixel_size;
     is_clean_ = resolution.noise <= kMaxHoleNoise * recipe_.pixel_size;
     result_.report.pixel_size = recipe_.pixel_size;
     book("resolution");
@@ -304,30 +288,29 @@ class Run {
   void rescan_papered_holes() {
     if (!may_add_views() || !is_plain_cloud() || !is_clean_) return;
     const double h = recipe_.pixel_size;
-    PaperedHoles holes;
-    bool are_left_to_fronts = is_sparse_ && !has_narrow_gaps_ && options_.finish;
-    if (are_left_to_fronts) {
-      holes = find_papered_holes(samples_, *session_.mesh(), of_sparse_points(h));
-      are_left_to_fronts = holes.share <= kMostErased;
-    }
-    if (!are_left_to_fronts)
-      holes = find_papered_holes(samples_, *session_.mesh(), {.pixel_size = h});
+    std::optional<PaperedHoles> for_fronts;
+    if (is_sparse_ && !has_narrow_gaps_ && options_.finish)
+      for_fronts = find_holes_for_fronts(samples_, *session_.mesh(), h);
+    const PaperedHoles holes =
+        for_fronts ? std::move(*for_fronts)
+                   : find_papered_holes(samples_, *session_.mesh(), {.pixel_size = h});
     if (holes.places.empty()) return;
     const std::vector<Vec3> uncovered = uncovered_samples();
     const ScanRecipe recipe = erase_for_rescan(holes.places, kCoverPixel * h);
-    if (!are_left_to_fronts) scan_holes(holes.points, recipe, uncovered, holes.places);
+    if (!for_fronts) scan_holes(holes, recipe, uncovered);
     book("papered holes");
   }
 
   /// @param uncovered uncovered_samples() before the mesh was taken off
-  void scan_holes(const std::vector<Vec3>& points, const ScanRecipe& recipe,
-                  const std::vector<Vec3>& uncovered, const std::vector<Sphere>& places) {
-    std::vector<Vec3> targets = points;
+  void scan_holes(const PaperedHoles& holes, const ScanRecipe& recipe,
+                  const std::vector<Vec3>& uncovered) {
+    std::vector<Vec3> targets = holes.points;
     for (int round = 0; round < kHoleRounds && !targets.empty(); ++round) {
       scan_from(views_of(targets, recipe, kHoleSamples, kMinNewInHoles), recipe, fill_scan);
-      targets = left_out_points(points, *session_.mesh(), kLeftOutOfHole * recipe_.pixel_size);
+      targets =
+          left_out_points(holes.points, *session_.mesh(), kLeftOutOfHole * recipe_.pixel_size);
     }
-    recover(uncovered, places);
+    recover(uncovered, holes.places);
   }
 
   /// Takes the mesh off these places. @return how they are scanned again
@@ -447,7 +430,7 @@ class Run {
   ScanRecipe recipe_;
   double noise_ = 0.0;              ///< of the points, model units
   bool is_of_cloud_ = false;        ///< what the pixels of the planned scans are
-  bool is_sparse_ = false;          ///< the points, so that fronts see more than finer pixels
+  bool is_sparse_ = false;          ///< the points: finer pixels see through, fronts grow over
   bool is_clean_ = true;            ///< enough to scan papered holes again
   double fill_share_ = kFillShare;  ///< of the progress, so far
   bool has_narrow_gaps_ = false;    ///< that the planned views did not reach

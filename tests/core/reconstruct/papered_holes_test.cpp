@@ -51,23 +51,28 @@ TEST_CASE("faces over a hole whose wall is left out are found, with all the hole
   CHECK(holes.places[0].contains({kRim, 0.0, 0.0}));
   CHECK_FALSE(holes.places[0].contains({3.0 * kRim, 0.0, 0.0}));
   CHECK_FALSE(holes.points.empty());
-  CHECK(holes.share > 0.0);
-  CHECK(holes.share < 0.2);
 }
 
-TEST_CASE("of a component that lies in papered holes the share is told, whatever is beside it",
-          "[reconstruct]") {
-  TriangleMesh mesh = closed_plate();
-  std::erase_if(mesh.triangles, [&](const Triangle& face) {
-    return glm::length(centroid_of(mesh.positions, face)) > 2.2 * kRim;
+TEST_CASE("holes are left to fronts if enough of each component stays", "[reconstruct]") {
+  const std::vector<Vec3> points = plate_with_hole(1.0);
+  const auto holes = find_holes_for_fronts(points, closed_plate(), 1.0);
+  REQUIRE(holes);
+  CHECK(holes->places.size() == 1);
+
+  TriangleMesh cover = shapes::square_sheet(22);  // of the hole and hardly more, in small faces
+  for (Vec3& p : cover.positions)
+    p *= 0.5;
+  std::erase_if(cover.triangles, [&](const Triangle& face) {
+    return glm::length(centroid_of(cover.positions, face)) > 1.6 * kRim;
   });
-  const double alone = find_papered_holes(plate_with_hole(3.0), mesh, {.pixel_size = 1.0}).share;
+  REQUIRE(cover.triangles.size() > 100);
+  REQUIRE(find_papered_holes(points, cover, of_sparse_points(1.0)).places.size() == 1);
+  CHECK_FALSE(find_holes_for_fronts(points, cover, 1.0));
   TriangleMesh other = closed_plate();
   for (Vec3& p : other.positions)
     p.z += 50.0;
-  testing::append(mesh, other);
-  CHECK(alone > 0.4);
-  CHECK(find_papered_holes(plate_with_hole(3.0), mesh, {.pixel_size = 1.0}).share == alone);
+  testing::append(cover, other);
+  CHECK_FALSE(find_holes_for_fronts(points, cover, 1.0));  // whatever is beside it
 }
 
 TEST_CASE("a wall is as many points as are asked for, as far from the mesh", "[reconstruct]") {
