@@ -23,6 +23,7 @@
 #include "core/finish/fit_vertices.h"
 #include "core/finish/fit_window.h"
 #include "core/finish/hole_choice.h"
+#include "core/finish/left_out_points.h"
 #include "core/finish/local_sizes.h"
 #include "core/finish/orient_pieces.h"
 #include "core/finish/papered_faces.h"
@@ -131,19 +132,47 @@ Pairs crossings_of(const TriangleMesh& mesh, const TriangleMesh* clean) {
   return self_intersections(mesh, find_face_changes(*clean, mesh).made);
 }
 
+/// Grows over what no scan has reached. What is cleared on an open sheet in vain comes back.
+std::size_t grow(TriangleMesh& mesh, const Growth& growth, const RegrowOptions& grown) {
+  const auto& [given, cloud, points, options, progress] = growth;
+  if (!options.regrow) return 0;
+  const TriangleMesh before = options.open_sheet ? mesh : TriangleMesh{};
+  const std::size_t count = regrow(mesh, cloud, points, grown, progress);
+  if (options.open_sheet) take_back_losses(mesh, before, options.pixel_size);
+  return count;
+}
+
+/// Points that a mesh leaves out, and its loops.
+struct Lack {
+  std::size_t points = 0;
+  std::size_t loops = 0;
+};
+
+Lack lack_of(const TriangleMesh& mesh, const SeenPoints& cloud, double pixel_size) {
+  return {left_out_points(cloud.points, mesh, kLeftOut * pixel_size).size(), count_loops(mesh)};
+}
+
+/// More loops are worse, since between noisy walls a front may join one to the other, but not if
+/// half of what was left out is there, as a tail or an ear that was cleared for the front.
+bool is_worse(const Lack& lack, const Lack& before) {
+  return lack.points > before.points + kFewLeftOut ||
+         (lack.loops > before.loops && 2 * lack.points >= before.points);
+}
+
 /// Where a repair left something open, faces around have gone: there it grows again, unless that
-/// leaves more open than there was: between noisy walls it may join one to the other.
+/// makes it worse.
 void grow_again(TriangleMesh& mesh, const Growth& growth, const RegrowOptions& grown,
                 FinishReport& report) {
   const auto& [given, cloud, points, options, progress] = growth;
   for (int round = 1; round < kRegrowRounds; ++round) {
     const TriangleMesh clean = mesh;
     const FinishReport before = report;
-    const std::size_t regrown = regrow(mesh, cloud, points, grown, progress);
+    const std::size_t regrown = grow(mesh, growth, grown);
     const FaceChanges changes = find_face_changes(clean, mesh);
     if (changes.made.empty() && changes.gone.empty()) return;
     repair(mesh, self_intersections(mesh, changes.made), {}, points, options, report, progress);
-    if (count_loops(mesh) > count_loops(clean)) {
+    const double h = options.pixel_size;
+    if (is_worse(lack_of(mesh, cloud, h), lack_of(clean, cloud, h))) {
       mesh = clean;
       report = before;
       return;
@@ -160,7 +189,7 @@ void grow_and_close(TriangleMesh& mesh, const Growth& growth, double in_the_way,
   const RegrowOptions grown{.pixel_size = options.pixel_size,
                             .in_the_way = in_the_way,
                             .only_outwards = !options.narrow_gaps};
-  if (options.regrow) report.regrown_faces += regrow(mesh, cloud, points, grown, progress);
+  report.regrown_faces += grow(mesh, growth, grown);
   repair(mesh, crossings_of(mesh, given), {}, points, options, report, progress);
   if (options.regrow) grow_again(mesh, growth, grown, report);
 }

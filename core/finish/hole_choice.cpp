@@ -28,6 +28,8 @@ constexpr double kMinOutline = 30.0;
 /// In h: a shorter loop is none of a component with so many times the area that it encloses.
 constexpr double kSureOutline = 60.0;
 constexpr double kDeepestSheet = 10.0;
+/// Times the area that a loop encloses: of a component with less it is the outline.
+constexpr double kFlat = 1.5;
 /// Area over squared perimeter, 1 for a circle: of a loop below, a crack or a ribbon, only a fill
 /// tells whether it folds back.
 constexpr double kSlit = 0.15;
@@ -91,6 +93,12 @@ bool may_be_outline(double perimeter, double sheet_area, const HoleChoiceOptions
   if (perimeter <= kMinOutline * options.pixel_size) return false;
   return options.has_narrow_gaps || perimeter > kSureOutline * options.pixel_size ||
          kFourPi * sheet_area <= kDeepestSheet * perimeter * perimeter;
+}
+
+/// Short or not, the outline of something that an open sheet shows from one side.
+bool is_outline_of_flat(const LoopGeometry& loop, double sheet_area,
+                        const HoleChoiceOptions& options) {
+  return options.open_sheet && sheet_area <= kFlat * glm::length(loop.across);
 }
 
 /// The outline of a sheet: a fill would fold back over the sheet, and every point of that would
@@ -203,6 +211,7 @@ std::optional<FillChoice> choose_fill(const std::vector<Vec3>& positions, const 
   const double h = options.pixel_size;
   if (loop.corners.size() > kMaxEdges) return std::nullopt;
   const LoopGeometry geometry = geometry_of(positions, table, loop);
+  if (is_outline_of_flat(geometry, sheet_area, options)) return std::nullopt;
   if (geometry.perimeter <= kSmallPerimeter * h) return FillChoice{.shape = FillShape::smooth};
   if (may_be_outline(geometry.perimeter, sheet_area, options) &&
       is_outline(geometry, positions, table, loop, options)) {

@@ -18,6 +18,7 @@ struct HoleChoiceOptions {
   double narrow_width = 3.0;          ///< in h, of cracks
   bool is_sampled = false;            ///< the cloud has points wherever the surface was seen
   bool has_narrow_gaps = false;       ///< a short loop may be the outline of one wall of a gap
+  bool open_sheet = false;            ///< even small pieces are seen from one side only, and open
   double noise = 0.0;                 ///< of these, standard deviation, model units
   bool leaves_gaps = false;           ///< of what is closed because of its points, where none are
   TriangulationMemo* memo = nullptr;  ///< as for fill_loop()
@@ -32,6 +33,7 @@ struct FillChoice {
 
 /// Whether a boundary loop is a gap in what was scanned, and then how to close it, or the border of
 /// an open surface, which stays (no value):
+/// - of an open sheet, a loop that encloses two thirds of its component's area stays: its outline;
 /// - a small loop (kSmallPerimeter) is closed;
 /// - the outline of a sheet stays: a fill would fold back over the sheet; unless the cloud shows
 ///   that it is another wall (core/finish/other_wall.h). A loop up to 60 h is no outline of what is

@@ -29,7 +29,8 @@ constexpr double kAlike = 0.5;
 /// Between two faces: what hangs together by such edges only are two pieces. The one may be the
 /// inside of what the other is the outside of, where a seam has caught an edge of it.
 constexpr double kFold = -0.5;
-constexpr std::size_t kMinParted = 50;  ///< faces; fewer between folds are a crumpled place
+/// Faces: fewer between folds are a crumpled place, and fewer by themselves a scrap, which stays.
+constexpr std::size_t kMinPiece = 50;
 /// Edges on each side of a place of a boundary that tell its directions.
 constexpr std::size_t kBeside = 4;
 /// In h: so much of what is turned goes where it continues the other: no seam has joined the two,
@@ -91,7 +92,7 @@ std::vector<std::uint32_t> wholes_of(
     const std::vector<std::pair<std::uint32_t, std::uint32_t>>& beside) {
   std::vector<std::uint32_t> whole(sizes.size(), CornerTable::kNone);
   for (std::uint32_t p = 0; p < whole.size(); ++p) {
-    if (sizes[p] >= kMinParted) whole[p] = p;
+    if (sizes[p] >= kMinPiece) whole[p] = p;
   }
   for (bool any = true; any;) {
     any = false;
@@ -182,7 +183,7 @@ class Orienter {
         next.pop();
         if (is_decided[c] != 0) continue;
         is_decided[c] = 1;
-        const bool is_told = kLeastMet * votes[c].all >= borders[c];
+        const bool is_told = sizes_[c] >= kMinPiece && kLeastMet * votes[c].all >= borders[c];
         is_turned[c] = is_told && votes[c].tell_to_turn() ? 1 : 0;
         for (const Meeting& meeting : meetings[c]) {
           const std::uint32_t other = meeting.other;

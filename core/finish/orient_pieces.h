@@ -11,7 +11,8 @@ namespace rangezip {
 /// outside gets its faces from there: a piece that continues what is around it, but faces the other
 /// way, so that no seam, bridge or fill can join the two. Pieces are what hangs together by edges
 /// over which faces turn by less than 120 degrees: now and then a seam catches an edge of the other
-/// side, where the surface seems to fold back; less than 50 faces belong to what is beside them.
+/// side, where the surface seems to fold back; less than 50 faces belong to what is beside them,
+/// or, if nothing is, stay as they are.
 ///
 /// Where the boundaries of two components run within 3 h of each other, the faces at both show
 /// whether one surface continues the other: they end towards each other, and what lies between goes

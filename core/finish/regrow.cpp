@@ -27,10 +27,6 @@
 namespace rangezip {
 namespace {
 
-constexpr std::size_t kMinPoints = 40;
-/// In h: how far from the mesh points are left out. A membrane in the middle of a gap of 2 h is 1 h
-/// from its walls.
-constexpr double kLeftOut = 0.7;
 constexpr double kLeftOutPerNoise = 3.0;
 constexpr double kMostNoise = 0.3;  ///< in h: more would bend the front
 /// In h, around points that are left out: faces that are doubted; points that the front may reach;
@@ -187,7 +183,7 @@ std::size_t regrow(TriangleMesh& mesh, const SeenPoints& seen, const PointGrid& 
     smooth(left_out, grid, h);
     left_out = points_off(left_out, mesh, distance);
   }
-  if (left_out.size() < kMinPoints) return 0;
+  if (left_out.size() < kFewLeftOut) return 0;
   const PointGrid places(left_out, region_of(mesh, h), 0.5 * kPlace * h);
   std::vector<Vec3> near = points_near(points, places, kPlace * h);
   if (is_noisy) smooth(near, grid, h);

@@ -14,6 +14,11 @@ namespace rangezip {
 inline constexpr double kSparseSpacing = 0.6;
 inline constexpr double kVerySparseSpacing = 0.9;
 
+/// In h: how far from the mesh points are left out. A membrane in the middle of a gap of 2 h is 1 h
+/// from its walls.
+inline constexpr double kLeftOut = 0.7;
+inline constexpr std::size_t kFewLeftOut = 40;  ///< fewer do not matter
+
 struct RegrowOptions {
   double pixel_size = 0.0;  ///< h, model units; positive
   double in_the_way = 0.9;  ///< in h: faces as near to a point that the mesh does not show go

@@ -18,6 +18,7 @@
 #include "core/finish/join_loops.h"
 #include "core/finish/local_plane.h"
 #include "core/finish/mesh_pieces.h"
+#include "core/finish/take_back_losses.h"
 #include "core/finish/verified_fills.h"
 #include "core/mesh/self_intersection.h"
 
@@ -123,6 +124,7 @@ HoleChoiceOptions choice_options(const PointGrid& cloud, const FinishOptions& op
                            .narrow_width = options.narrow_width,
                            .is_sampled = !cloud.empty() && options.gap == 0.0,
                            .has_narrow_gaps = options.narrow_gaps,
+                           .open_sheet = options.open_sheet,
                            .memo = &memo};
   if (choice.is_sampled) choice.noise = noise_of(cloud.points(kNoisePoints), cloud, h);
   return choice;
@@ -205,6 +207,16 @@ class Repairer {
         widen(mesh_, outcome.unfilled);
       }
     }
+  }
+
+  /// The same; what is cleared around loops that stay open after all comes back.
+  void close_without_losses(const Progress& progress) {
+    clean_topology(mesh_);
+    const TriangleMesh before = mesh_;
+    close_in_rounds(progress);
+    if (take_back_losses(mesh_, before, options_.pixel_size) == 0) return;
+    MeshPieces pieces = look_at_pieces();
+    drop_small(pieces);
   }
 
   /// Bridges the joints of turned pieces. @return all loops that no bridge has to do with
@@ -372,7 +384,12 @@ void repair(TriangleMesh& mesh, const Pairs& crossing, const SettledLoops& settl
             const Progress& progress) {
   cut_pairs(mesh, crossing, report);
   // From here on nothing crosses: faces only go, and what comes is checked.
-  Repairer(mesh, settled, cloud, options, report).close_in_rounds(progress);
+  Repairer repairer(mesh, settled, cloud, options, report);
+  if (options.open_sheet) {
+    repairer.close_without_losses(progress);
+  } else {
+    repairer.close_in_rounds(progress);
+  }
   remove_unused_vertices(mesh);
 }
 

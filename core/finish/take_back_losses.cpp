@@ -18,14 +18,19 @@ constexpr double kMostMade = 0.5;
 /// In square h: losing less is no worse than the cracks that were there.
 constexpr double kSmallLoss = 10.0;
 
-std::vector<std::uint8_t> border_vertices(const TriangleMesh& mesh) {
+/// Where a vertex is: `nowhere` if no face has it.
+enum class Where : std::uint8_t { nowhere, inside, border };
+
+std::vector<Where> where_vertices_are(const TriangleMesh& mesh) {
   const CornerTable table(mesh.triangles, mesh.positions.size());
-  std::vector<std::uint8_t> is_at_border(mesh.positions.size(), 0);
+  std::vector<Where> where(mesh.positions.size(), Where::nowhere);
+  for (std::uint32_t c = 0; c < table.corner_count(); ++c)
+    where[table.vertex(c)] = Where::inside;
   for (std::uint32_t c = 0; c < table.corner_count(); ++c) {
     if (table.across(c) == CornerTable::kNone)
-      is_at_border[table.vertex(c)] = is_at_border[table.head(c)] = 1;
+      where[table.vertex(c)] = where[table.head(c)] = Where::border;
   }
-  return is_at_border;
+  return where;
 }
 
 /// The changes from one mesh to another with the same vertices, by what hangs together.
@@ -66,7 +71,7 @@ class Losses {
     sets_.join(face[0], face[2]);
   }
 
-  /// Sets at an open loop in which much more surface went than came.
+  /// Sets at an open loop, or of which nothing is left, in which much more surface went than came.
   /// @param least surface lost, square model units
   void choose(double least) {
     std::vector<double> gone(after_.positions.size(), 0.0), made = gone;
@@ -78,13 +83,15 @@ class Losses {
       const Triangle& t = after_.triangles[f];
       made[sets_.find(t[0])] += area_of_face(after_.positions, t);
     }
-    const std::vector<std::uint8_t> is_at_border = border_vertices(after_);
+    const std::vector<Where> where = where_vertices_are(after_);
+    std::vector<Where> where_most(after_.positions.size(), Where::nowhere);
     for (const std::uint32_t f : changes_.gone) {
-      for (const std::uint32_t v : before_.triangles[f]) {
-        const std::uint32_t set = sets_.find(v);
-        const bool is_much = made[set] <= kMostMade * gone[set] && gone[set] - made[set] >= least;
-        if (is_at_border[v] != 0 && is_much) is_undone_[set] = 1;
-      }
+      for (const std::uint32_t v : before_.triangles[f])
+        where_most[sets_.find(v)] = std::max(where_most[sets_.find(v)], where[v]);
+    }
+    for (std::size_t set = 0; set < gone.size(); ++set) {
+      const bool is_much = made[set] <= kMostMade * gone[set] && gone[set] - made[set] >= least;
+      if (is_much && where_most[set] != Where::inside) is_undone_[set] = 1;
     }
   }
 

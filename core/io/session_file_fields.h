@@ -256,8 +256,8 @@ template <class Fields>
 void describe(Fields& f, FinishMesh& command) {
   auto& [options, vote] = command;
   auto& [method, pixel_size, max_hole_perimeter, narrow_width, rounds, relaxations, triangles,
-         flat_tolerance, snap_features, gap, narrow_gaps, regrow, follow_density, min_component,
-         is_clean] = options;
+         flat_tolerance, snap_features, gap, narrow_gaps, regrow, open_sheet, follow_density,
+         min_component, is_clean] = options;
   f.choice("method", method,
            std::array{Choice<FinishMethod>{"fast", FinishMethod::fast},
                       Choice<FinishMethod>{"full", FinishMethod::full}},
@@ -280,6 +280,7 @@ void describe(Fields& f, FinishMesh& command) {
            "model units; between the contours that the points lie on; 0: they are spread evenly");
   f.boolean("narrow_gaps", narrow_gaps, "cuts handles where no points lie");
   f.boolean("regrow", regrow, "the mesh grows over points that no scan has reached");
+  f.boolean("open_sheet", open_sheet, "what is cleared along open borders in vain comes back");
   f.boolean("follow_density", follow_density,
             "full: smaller triangles where the points are denser than pixel_size asks for");
   f.integer("min_component", min_component, kCount, "triangles; smaller pieces are dropped");

@@ -61,7 +61,8 @@ constexpr double kNarrowShare = 0.03;
 constexpr std::size_t kJudgedSamples = 100'000;
 constexpr std::size_t kCoverSamples = 2'000'000;  ///< drawn to plan views of what is uncovered
 constexpr double kCosine75Degrees = 0.2588190451025207;  ///< steeper cells are cut, see scan_recipe
-constexpr double kMinFillLoop = 6.0;  ///< pixel sides; shorter loops are left to the finish
+constexpr double kMinFillLoop = 6.0;          ///< pixel sides; shorter loops are left to the finish
+constexpr std::size_t kMinPieceOfSheet = 30;  ///< faces: much of an open sheet lies apart
 constexpr std::size_t kAreaSamples = 400'000;  ///< of polygons, to plan and to judge coverage
 
 /// The share of the whole run at which each stage begins, from measured runs.
@@ -387,6 +388,8 @@ class Run {
       command.options.max_hole_perimeter = options_.close_holes;
       command.options.gap = recipe_.gap;
       command.options.narrow_gaps = has_narrow_gaps_;
+      command.options.open_sheet = recipe_.one_sided;
+      if (recipe_.one_sided) command.options.min_component = kMinPieceOfSheet;
       command.options.is_clean = true;  // every stitch was checked
       // Much of polygons that no view has reached lies inside, where nothing is to grow.
       command.options.regrow = is_plain_cloud() || (scene_.point_count() == 0 && !has_narrow_gaps_);

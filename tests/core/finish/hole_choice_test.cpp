@@ -68,4 +68,25 @@ TEST_CASE(
   CHECK_FALSE(choice(11.0 * as_disc, true));
 }
 
+TEST_CASE("the outline of a small piece is a hole, unless all is seen from one side", "[finish]") {
+  TriangleMesh mesh = testing::sphere(kN);
+  testing::cut_where(mesh, [](const Vec3& p) { return p.z < 0.0 || std::hypot(p.x, p.y) > 0.13; });
+  clean_topology(mesh);
+  REQUIRE(report_mesh(mesh).longest_loop < 20.0 * kH);
+  const CornerTable table(mesh.triangles, mesh.positions.size());
+  const BoundaryLoop loop = boundary_loops(table).at(0);
+  const PointGrid no_points({}, Box{}, kH);
+  double area = 0.0;
+  for (const Triangle& t : mesh.triangles)
+    area += area_of_face(mesh.positions, t);
+  const auto is_closed = [&](double sheet_area, bool open_sheet) {
+    return choose_fill(mesh.positions, table, loop, sheet_area, false, no_points,
+                       {.pixel_size = kH, .open_sheet = open_sheet})
+        .has_value();
+  };
+  CHECK(is_closed(area, false));
+  CHECK_FALSE(is_closed(area, true));
+  CHECK(is_closed(2.0 * area, true));  // of something larger it is a hole
+}
+
 }  // namespace rangezip

@@ -149,6 +149,17 @@ TEST_CASE("a piece that meets another along a side is turned, one that does in a
   REQUIRE(orient_pieces(mesh, 0.6) == count);
 }
 
+TEST_CASE("a scrap is not turned, whatever it continues") {
+  const auto [n, count] = GENERATE(table<int, std::size_t>({{6, 1U}, {4, 0U}}));
+  CAPTURE(n);
+  TriangleMesh mesh;
+  add_sheet(mesh, 0.0, 0.0, 30, true);
+  add_sheet(mesh, 30.5, 0.0, n, false);
+  const TriangleMesh before = mesh;
+  REQUIRE(orient_pieces(mesh, 0.6) == count);
+  REQUIRE((mesh == before) == (count == 0));
+}
+
 TEST_CASE("a turned piece ends before what it continues, though it lay over its rim") {
   TriangleMesh mesh;
   add_sheet(mesh, 0.0, 0.0, 30, true);

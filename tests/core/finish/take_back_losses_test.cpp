@@ -66,6 +66,37 @@ TEST_CASE("a hole that was closed, or has lost little, stays as it is", "[finish
   CHECK(take_back_losses(little, sheet_with_hole(0.5), 0.99 * std::sqrt(lost / 10.0)) > 0);
 }
 
+TEST_CASE("a piece of which nothing is left comes back, if it is large enough", "[finish]") {
+  const TriangleMesh sheet = shapes::square_sheet(kSide);
+  TriangleMesh both = sheet;
+  TriangleMesh piece = shapes::square_sheet(kSide);
+  testing::cut_where(piece, [](const Vec3& p) { return reach_of(p) > 3.5; });
+  for (Vec3& p : piece.positions)
+    p.z += 20.0;
+  testing::append(both, piece);
+  const double area = area_of(piece);
+  TriangleMesh mesh = sheet;
+  CHECK(take_back_losses(mesh, both, 0.99 * std::sqrt(area / 10.0)) == piece.triangles.size());
+  CHECK(area_of(mesh) == Approx(area_of(both)));
+  CHECK(report_mesh(mesh).components == 2);
+  mesh = sheet;
+  CHECK(take_back_losses(mesh, both, 1.01 * std::sqrt(area / 10.0)) == 0);
+  CHECK(mesh == sheet);
+}
+
+TEST_CASE("what was replaced by less surface, without a hole, does not come back", "[finish]") {
+  TriangleMesh flat = shapes::square_sheet(kSide);
+  TriangleMesh tower = flat;  // one vertex, moved far out
+  const auto middle =
+      std::min_element(tower.positions.begin(), tower.positions.end(),
+                       [](const Vec3& a, const Vec3& b) { return reach_of(a) < reach_of(b); });
+  middle->z = 50.0;
+  const TriangleMesh before = flat;
+  REQUIRE(area_of(tower) > area_of(flat) + 40.0);
+  CHECK(take_back_losses(flat, tower, kH) == 0);
+  CHECK(flat == before);
+}
+
 TEST_CASE("faces do not come back through what is new", "[finish]") {
   const TriangleMesh crack = sheet_with_hole(0.5);
   TriangleMesh narrow = sheet_with_hole(3.5);

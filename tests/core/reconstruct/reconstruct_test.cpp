@@ -160,6 +160,27 @@ TEST_CASE("a hilly terrain becomes one open sheet that faces up", "[reconstruct]
   }
 }
 
+TEST_CASE("small things over a terrain stay, each by itself", "[reconstruct]") {
+  // Five boards of 5 pixels a side, about 50 faces, that hang over it.
+  PointCloud cloud;
+  shapes::Random random(6);
+  constexpr double kBoard = 0.1;
+  for (int i = 0; i < 30'000; ++i)
+    cloud.positions.emplace_back(random.between(-1.0, 1.0), random.between(-1.0, 1.0), 0.0);
+  for (const auto& [x, y] :
+       {std::pair{0.0, 0.0}, {0.6, 0.5}, {-0.6, 0.5}, {0.5, -0.6}, {-0.5, -0.6}}) {
+    for (int i = 0; i < 75; ++i) {
+      cloud.positions.emplace_back(x + random.between(0.0, kBoard), y + random.between(0.0, kBoard),
+                                   0.3);
+    }
+  }
+  const ReconstructResult result = run(scene_of(std::move(cloud)));
+  check_clean(result);
+  CHECK(result.report.mesh.components == 6);
+  CHECK(result.report.mesh.boundary_loops == 6);
+  CHECK(result.report.coverage.share > 0.999);
+}
+
 TEST_CASE("views of what is left out keep holes through a plate open", "[reconstruct]") {
   // Holes of six pixels, six deep, with a small part of the points on their walls. Of the 48 of
   // three clouds 17 are kept by views of the whole plate.
