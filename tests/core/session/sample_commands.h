@@ -78,6 +78,7 @@ inline std::vector<Command> full_commands(shapes::Random& random) {
   finish.options.gap = share();
   finish.options.narrow_gaps = true;
   finish.options.regrow = true;
+  finish.options.open_sheet = true;
   finish.options.follow_density = true;
   finish.options.min_component = static_cast<std::size_t>(count());
   finish.options.is_clean = true;
