@@ -11,7 +11,7 @@ namespace rangezip {
 /// crack any more, but a hole in a surface that scans have seen. Around loops that are open now,
 /// and where nothing is left, the changes that hang together (by common vertices) are undone if of
 /// the surface that went less than half came again, and 10 square h are lost, unless what comes
-/// back crosses something new. Small components that were dropped come back, too.
+/// back crosses something new. So do components that were dropped.
 /// Cost: some passes over the meshes.
 /// @param before without faces that cross; its vertices may have other numbers
 /// @param pixel_size h, model units
