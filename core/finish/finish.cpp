@@ -63,6 +63,7 @@ constexpr double kFilledHandle = 9.0;
 /// Between contours a window may span four gaps: two contours on both sides tell the bending.
 constexpr double kWidestPerGap = 5.0;
 constexpr int kRegrowRounds = 3;
+constexpr std::size_t kMuchLeftOut = 500;  ///< one in so many points
 constexpr double kFarInTheWay = 2.0;  ///< RegrowOptions::in_the_way, if growing parted something
 constexpr int kHandleRounds = 6;      ///< of {cut, close}: paths that touch are cut one by one
 /// Points a face: more tell hardly more, and take longer.
@@ -152,11 +153,14 @@ Lack lack_of(const TriangleMesh& mesh, const SeenPoints& cloud, double pixel_siz
   return {left_out_points(cloud.points, mesh, kLeftOut * pixel_size).size(), count_loops(mesh)};
 }
 
-/// More loops are worse, since between noisy walls a front may join one to the other, but not if
-/// half of what was left out is there, as a tail or an ear that was cleared for the front.
-bool is_worse(const Lack& lack, const Lack& before) {
-  return lack.points > before.points + kFewLeftOut ||
-         (lack.loops > before.loops && 2 * lack.points >= before.points);
+/// With as many loops, more points left out are worse. More loops are, since between noisy walls a
+/// front may join one to the other, but not if half of what was left out is there, and that is
+/// much, as a tail or an ear that was cleared for the front.
+bool is_worse(const Lack& lack, const Lack& before, std::size_t points) {
+  if (lack.loops == before.loops) return lack.points > before.points + kFewLeftOut;
+  const bool is_much = before.points > points / kMuchLeftOut;
+  const bool is_half_there = 2 * lack.points < before.points;
+  return lack.loops > before.loops && !(is_much && is_half_there);
 }
 
 /// Where a repair left something open, faces around have gone: there it grows again, unless that
@@ -172,7 +176,7 @@ void grow_again(TriangleMesh& mesh, const Growth& growth, const RegrowOptions& g
     if (changes.made.empty() && changes.gone.empty()) return;
     repair(mesh, self_intersections(mesh, changes.made), {}, points, options, report, progress);
     const double h = options.pixel_size;
-    if (is_worse(lack_of(mesh, cloud, h), lack_of(clean, cloud, h))) {
+    if (is_worse(lack_of(mesh, cloud, h), lack_of(clean, cloud, h), cloud.points.size())) {
       mesh = clean;
       report = before;
       return;
