@@ -31,8 +31,8 @@ struct FinishOptions {
   bool narrow_gaps = false;  ///< the cloud has gaps that scans reach only in part: handles are cut
                              ///< where no points lie
   bool regrow = false;       ///< grows over places that no scan has reached
-  bool open_sheet = false;   ///< the cloud shows one side only, and most borders stay: what is
-                             ///< cleared along them in vain comes back
+  bool open_sheet = false;   ///< the cloud shows one side only, and most borders stay, those of
+                             ///< small pieces too: what is cleared along them in vain comes back
   bool follow_density = false;      ///< `full` makes smaller triangles where the cloud is so dense
                                     ///< that scans might have had pixels of under 0.6 h there
   std::size_t min_component = 100;  ///< smaller pieces are dropped
