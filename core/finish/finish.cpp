@@ -34,6 +34,7 @@
 #include "core/finish/remesh.h"
 #include "core/finish/repair.h"
 #include "core/finish/separate.h"
+#include "core/finish/settled_loops.h"
 #include "core/finish/sharpen.h"
 #include "core/finish/small_angles.h"
 #include "core/finish/take_back_losses.h"
@@ -133,14 +134,19 @@ Pairs crossings_of(const TriangleMesh& mesh, const TriangleMesh* clean) {
   return self_intersections(mesh, find_face_changes(*clean, mesh).made);
 }
 
-/// Grows over what no scan has reached. What is cleared on an open sheet in vain comes back.
+/// Grows over what no scan has reached.
 std::size_t grow(TriangleMesh& mesh, const Growth& growth, const RegrowOptions& grown) {
   const auto& [given, cloud, points, options, progress] = growth;
-  if (!options.regrow) return 0;
-  const TriangleMesh before = options.open_sheet ? mesh : TriangleMesh{};
-  const std::size_t count = regrow(mesh, cloud, points, grown, progress);
-  if (options.open_sheet) take_back_losses(mesh, before, options.pixel_size);
-  return count;
+  return options.regrow ? regrow(mesh, cloud, points, grown, progress) : 0;
+}
+
+/// Closes what growing has left open. Of an open sheet comes back what all that leaves out.
+/// @param start before it grew; not needed for bodies
+void close_grown(TriangleMesh& mesh, const TriangleMesh& start, const Pairs& crossing,
+                 const Growth& growth, FinishReport& report) {
+  const auto& [given, cloud, points, options, progress] = growth;
+  repair(mesh, crossing, {}, points, options, report, progress);
+  if (options.open_sheet) take_back_losses(mesh, start, &points, options.pixel_size);
 }
 
 /// Points that a mesh leaves out, and its loops.
@@ -174,7 +180,7 @@ void grow_again(TriangleMesh& mesh, const Growth& growth, const RegrowOptions& g
     const std::size_t regrown = grow(mesh, growth, grown);
     const FaceChanges changes = find_face_changes(clean, mesh);
     if (changes.made.empty() && changes.gone.empty()) return;
-    repair(mesh, self_intersections(mesh, changes.made), {}, points, options, report, progress);
+    close_grown(mesh, clean, self_intersections(mesh, changes.made), growth, report);
     const double h = options.pixel_size;
     if (is_worse(lack_of(mesh, cloud, h), lack_of(clean, cloud, h), cloud.points.size())) {
       mesh = clean;
@@ -193,18 +199,19 @@ void grow_and_close(TriangleMesh& mesh, const Growth& growth, double in_the_way,
   const RegrowOptions grown{.pixel_size = options.pixel_size,
                             .in_the_way = in_the_way,
                             .only_outwards = !options.narrow_gaps};
+  const TriangleMesh start = options.open_sheet ? mesh : TriangleMesh{};
   report.regrown_faces += grow(mesh, growth, grown);
-  repair(mesh, crossings_of(mesh, given), {}, points, options, report, progress);
+  close_grown(mesh, start, crossings_of(mesh, growth.clean), growth, report);
   if (options.regrow) grow_again(mesh, growth, grown, report);
 }
 
-/// The same; where that parts what was one, as when the neck of a cavity is closed inside, once
-/// more from farther around, if that leaves fewer pieces and no more loops.
+/// The same; where that parts what was one body, as when the neck of a cavity is closed inside,
+/// once more from farther around, if that leaves fewer pieces and no more loops.
 void grow_in_one(TriangleMesh& mesh, const Growth& growth, FinishReport& report) {
   TriangleMesh start = mesh;
   const FinishReport before = report;
   grow_and_close(mesh, growth, RegrowOptions{}.in_the_way, report);
-  if (report.regrown_faces == 0) return;
+  if (report.regrown_faces == 0 || growth.options.open_sheet) return;
   const std::size_t scrap = growth.options.min_component;
   const std::size_t parts = count_components(mesh, scrap);
   if (parts <= count_components(start, scrap)) return;
@@ -216,7 +223,8 @@ void grow_in_one(TriangleMesh& mesh, const Growth& growth, FinishReport& report)
   report = report_again;
 }
 
-/// Cuts handles that seams made where sheets come close, and closes the holes.
+/// Cuts handles that seams made where sheets come close, and closes the holes. The other borders
+/// of an open sheet have been looked at already.
 void remove_thin_handles(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
                          FinishReport& report, const Progress& progress) {
   const double h = options.pixel_size;
@@ -229,12 +237,13 @@ void remove_thin_handles(TriangleMesh& mesh, const PointGrid& cloud, const Finis
     thin.cloud = {&cloud, h};
   }
   for (int round = 0; round < kHandleRounds; ++round) {
+    const SettledLoops settled = options.open_sheet ? SettledLoops(mesh) : SettledLoops();
     const std::size_t cut = cut_thin_handles(mesh, thin);
     if (cut == 0) return;
     report.cut_handles += cut;
     const TriangleMesh open = mesh;
-    repair(mesh, {}, {}, cloud, options, report, progress);
-    if (!options.narrow_gaps) take_back_losses(mesh, open, h);
+    repair(mesh, {}, settled, cloud, options, report, progress);
+    if (!options.narrow_gaps && !options.open_sheet) take_back_losses(mesh, open, nullptr, h);
   }
 }
 

@@ -214,7 +214,7 @@ class Repairer {
     clean_topology(mesh_);
     const TriangleMesh before = mesh_;
     close_in_rounds(progress);
-    if (take_back_losses(mesh_, before, options_.pixel_size) == 0) return;
+    if (take_back_losses(mesh_, before, &cloud_, options_.pixel_size) == 0) return;
     MeshPieces pieces = look_at_pieces();
     drop_small(pieces);
   }
@@ -403,7 +403,9 @@ void close_joints(TriangleMesh& mesh, const PointGrid& cloud, const FinishOption
 void zip_open_loops(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
                     FinishReport& report) {
   const SettledLoops none;
+  const TriangleMesh before = mesh;
   Repairer(mesh, none, cloud, options, report).zip_again();
+  if (options.open_sheet) take_back_losses(mesh, before, &cloud, options.pixel_size);
   remove_unused_vertices(mesh);
 }
 

@@ -15,8 +15,8 @@ namespace rangezip {
 /// Rounds of {cut the faces that cross others, bridge cracks between pieces, close holes}. A fill
 /// or bridge that crosses anything is taken back and the hole widened by a ring of faces for the
 /// next round. What is open after the last one is closed ear by ear (core/finish/ear_fill.h), if
-/// that closes all of it; else it stays open. Of an open sheet comes back what went around loops
-/// that stay open (core/finish/take_back_losses.h). The result is always oriented, manifold and
+/// that closes all of it; else it stays open. Of an open sheet comes back what went if that leaves
+/// out points (core/finish/take_back_losses.h). The result is always oriented, manifold and
 /// free of self-intersections. Adds to the counts of `report`.
 /// @param crossing the pairs of faces that cross, self_intersections(mesh)
 /// @param settled border that stays: its loops are not bridged, joined or closed

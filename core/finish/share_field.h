@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <array>
 #include <unordered_map>
 #include <vector>
 
@@ -16,7 +16,7 @@ class ShareField {
   ShareField() = default;
   /// @param side of the cubes, model units
   /// @param cubes sorted, without repetitions
-  /// @param shares one per cube, for its centre
+  /// @param shares one per cube, for its centre; none negative
   ShareField(double side, std::vector<Cube> cubes, std::vector<double> shares);
 
   [[nodiscard]] bool is_one() const noexcept { return cubes_.empty(); }
@@ -29,10 +29,15 @@ class ShareField {
   [[nodiscard]] double at(const Vec3& place) const;
 
  private:
+  static constexpr double kNone = -1.0;
+  /// Of a cube and of those up to one farther along each axis, x fastest: all that a place between
+  /// their centres asks for, found at once. kNone where there is no cube.
+  using Corners = std::array<double, 8>;
+
   double side_ = 1.0;
   std::vector<Cube> cubes_;
-  std::unordered_map<Cube, std::uint32_t, CubeHash> numbers_;  ///< of the cubes
   std::vector<double> shares_;
+  std::unordered_map<Cube, Corners, CubeHash> corners_;
 };
 
 }  // namespace rangezip

@@ -62,7 +62,7 @@ constexpr std::size_t kJudgedSamples = 100'000;
 constexpr std::size_t kCoverSamples = 2'000'000;  ///< drawn to plan views of what is uncovered
 constexpr double kCosine75Degrees = 0.2588190451025207;  ///< steeper cells are cut, see scan_recipe
 constexpr double kMinFillLoop = 6.0;          ///< pixel sides; shorter loops are left to the finish
-constexpr std::size_t kMinPieceOfSheet = 30;  ///< faces: much of an open sheet lies apart
+constexpr std::size_t kMinPieceOfSheet = 12;  ///< faces: much of an open sheet lies apart
 constexpr std::size_t kAreaSamples = 400'000;  ///< of polygons, to plan and to judge coverage
 
 /// The share of the whole run at which each stage begins, from measured runs.
