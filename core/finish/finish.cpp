@@ -195,7 +195,7 @@ void grow_again(TriangleMesh& mesh, const Growth& growth, const RegrowOptions& g
 /// @param in_the_way RegrowOptions::in_the_way
 void grow_and_close(TriangleMesh& mesh, const Growth& growth, double in_the_way,
                     FinishReport& report) {
-  const auto& [given, cloud, points, options, progress] = growth;
+  const FinishOptions& options = growth.options;
   const RegrowOptions grown{.pixel_size = options.pixel_size,
                             .in_the_way = in_the_way,
                             .only_outwards = !options.narrow_gaps};

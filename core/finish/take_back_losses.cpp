@@ -102,7 +102,8 @@ class Losses {
   /// Of the chosen sets leaves those that leave out more points than they reach.
   /// @param distance of points that a mesh reaches, model units
   void keep_by_points(const PointGrid& cloud, double distance) {
-    if (cloud.empty()) return;
+    const bool any_chosen = std::find(is_undone_.begin(), is_undone_.end(), 1) != is_undone_.end();
+    if (!any_chosen || cloud.empty()) return;
     const std::vector<Vec3> points = cloud.points(cloud.size());
     const std::vector<std::size_t> lost = reached_only_by(gone_, points, after_, distance);
     const std::vector<std::size_t> won = reached_only_by(made_, points, before_, distance);

@@ -79,13 +79,14 @@ TEST_CASE("a hole that was closed, or leaves few points out, stays as it is", "[
   const TriangleMesh before = closed;
   CHECK(take_back_losses(closed, sheet_with_hole(3.5), cloud_on(0.5), kH) == 0);
   CHECK(closed == before);
-  TriangleMesh little =
-      sheet_with_hole(1.5);  // 2 from the middle to its rim: 5 x 5, 11 x 11 points
+  // It is 2 from the middle to the rim: 5 x 5 points are left out, or 11 x 11.
+  TriangleMesh little = sheet_with_hole(1.5);
   CHECK(take_back_losses(little, sheet_with_hole(0.5), cloud_on(0.5), kH) == 0);
   CHECK(take_back_losses(little, sheet_with_hole(0.5), cloud_on(0.25), kH) > 0);
 }
 
-TEST_CASE("a piece of which nothing is left comes back, if the cloud has it", "[finish]") {
+TEST_CASE("a piece of which nothing is left comes back, if it is large enough and the cloud has it",
+          "[finish]") {
   const TriangleMesh sheet = shapes::square_sheet(kSide);
   TriangleMesh both = sheet;
   TriangleMesh piece = shapes::square_sheet(kSide);
@@ -93,7 +94,13 @@ TEST_CASE("a piece of which nothing is left comes back, if the cloud has it", "[
   for (Vec3& p : piece.positions)
     p.z += 20.0;
   testing::append(both, piece);
+  const double area = area_of(piece);
   TriangleMesh mesh = sheet;
+  CHECK(take_back_losses(mesh, both, nullptr, 0.99 * std::sqrt(area / 10.0)) ==
+        piece.triangles.size());
+  mesh = sheet;
+  CHECK(take_back_losses(mesh, both, nullptr, 1.01 * std::sqrt(area / 10.0)) == 0);
+  CHECK(mesh == sheet);
   CHECK(take_back_losses(mesh, both, cloud_on(0.5, 20.0), kH) == piece.triangles.size());
   CHECK(area_of(mesh) == Approx(area_of(both)));
   CHECK(report_mesh(mesh).components == 2);
