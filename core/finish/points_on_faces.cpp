@@ -1,10 +1,12 @@
 #include "core/finish/points_on_faces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/base/parallel.h"
 #include "core/finish/face_grid.h"
+#include "core/finish/face_part.h"
 
 namespace rangezip {
 namespace {
@@ -17,6 +19,7 @@ constexpr int kMostSteps = 6;          // of a walk: vertices move by less than 
 /// Of the squared distance: of a point over a convex edge both faces are as near, but for rounding,
 /// which is to decide nothing.
 constexpr double kNearer = 0.999;
+constexpr double kAsNear = 1.0 + 1e-9;  // for a face that is as near, but for rounding
 
 double squared_distance(const CornerTable& table, const std::vector<Vec3>& positions,
                         std::uint32_t face, const Vec3& point) {
@@ -61,7 +64,7 @@ std::uint32_t walk(const CornerTable& table, const std::vector<Vec3>& positions,
 
 PointsOnFaces::PointsOnFaces(const TriangleMesh& mesh, const CornerTable& table,
                              std::vector<Vec3> points, double reach)
-    : points_(std::move(points)), face_of_(points_.size(), kNone) {
+    : reach_(reach), points_(std::move(points)), face_of_(points_.size(), kNone) {
   const FaceGrid grid(mesh, cell_for(mesh, reach));
   parallel_for(points_.size(), kPerBlock, [&](std::size_t begin, std::size_t end) {
     std::uint32_t guess = 0;  // points follow each other closely, mostly
@@ -69,6 +72,28 @@ PointsOnFaces::PointsOnFaces(const TriangleMesh& mesh, const CornerTable& table,
       face_of_[i] =
           grid.nearest_face(points_[i], reach, walk(table, mesh.positions, guess, points_[i]));
       if (face_of_[i] != kNone) guess = face_of_[i];
+    }
+  });
+  sort(mesh.triangles.size());
+}
+
+void PointsOnFaces::find_again(const TriangleMesh& mesh, const CornerTable& table,
+                               const std::vector<std::uint8_t>& is_changed) {
+  const FacePart changed = face_part(mesh, is_changed);
+  if (changed.mesh.empty()) return;
+  const double cell = cell_for(mesh, reach_);
+  const FaceGrid grid(mesh, cell), of_changed(changed.mesh, cell);
+  parallel_for(points_.size(), kPerBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t face = face_of_[i];
+      const Vec3& point = points_[i];
+      if (face != kNone && is_changed[face] == 0) {
+        const double distance = std::sqrt(squared_distance(table, mesh.positions, face, point));
+        if (!of_changed.has_face_within(point, kAsNear * distance)) continue;
+      }
+      face_of_[i] = face == kNone ? grid.nearest_face(point, reach_)
+                                  : grid.nearest_face(point, reach_,
+                                                      walk(table, mesh.positions, face, point));
     }
   });
   sort(mesh.triangles.size());

@@ -24,6 +24,13 @@ class PointsOnFaces {
   /// point walks over edges as long as faces come clearly nearer.
   void follow(const CornerTable& table, const std::vector<Vec3>& positions);
 
+  /// Finds the nearest face again, after some faces have changed or come.
+  /// @param is_changed per face: 1 where a corner moved, or is another vertex; all new faces
+  /// Cost: what the constructor does, but only for the points to which such a face was or is
+  /// nearest; little for the others.
+  void find_again(const TriangleMesh& mesh, const CornerTable& table,
+                  const std::vector<std::uint8_t>& is_changed);
+
   /// Indices of the points of a face, in order.
   [[nodiscard]] std::span<const std::uint32_t> of_face(std::uint32_t face) const {
     return std::span(order_).subspan(starts_[face], starts_[face + 1] - starts_[face]);
@@ -33,6 +40,7 @@ class PointsOnFaces {
  private:
   void sort(std::size_t faces);
 
+  double reach_;
   std::vector<Vec3> points_;
   std::vector<std::uint32_t> face_of_;  // of each point
   std::vector<std::uint32_t> starts_;   // of each face in order_

@@ -17,6 +17,7 @@
 #include "core/finish/unsupported_faces.h"
 #include "core/finish/vertex_geometry.h"
 #include "core/mesh/coverage.h"
+#include "core/mesh/face_changes.h"
 #include "core/mesh/self_intersection.h"
 
 namespace rangezip {
@@ -29,7 +30,6 @@ constexpr double kMostNoise = 0.125;
 constexpr double kReach = 3.0;         ///< of rims that are short
 constexpr double kAround = 2.0;        ///< of such points: those that tell whether a move is good
 constexpr double kPart = 8.0;          ///< of such points: faces that may be met
-constexpr double kChanged = 8.0;       ///< of vertices that were to move: points that may lead on
 constexpr double kHalf = 0.5;          ///< of the radius: cells of grids
 constexpr double kCrease = 0.5;        ///< 60 degrees
 constexpr std::size_t kMinPoints = 2;  ///< next to a vertex, to be reached
@@ -74,12 +74,11 @@ class Reacher {
           const ReachPointsOptions& options)
       : positions_(mesh.positions),
         mesh_(mesh),
-        all_points_(points),
-        points_(std::move(points)),
         cloud_(cloud),
         options_(options),
         short_(too_short),
         table_(mesh.triangles, mesh.positions.size()),
+        on_(mesh, table_, std::move(points), kReach * options.pixel_size),
         is_hopeless_(mesh.positions.size(), 0),
         is_moved_(mesh.positions.size(), 0) {}
 
@@ -90,22 +89,21 @@ class Reacher {
   };
 
   Moves round() {
-    const PointsOnFaces on(mesh_, table_, points_, kReach * options_.pixel_size);
-    const std::vector<Vec3> before = positions_;
+    const TriangleMesh before = geometry_of(mesh_);
     std::vector<std::uint8_t> is_busy(positions_.size(), 0);
     std::vector<std::uint32_t> moved;
-    for (const Candidate& candidate : find_candidates(on)) {
+    for (const Candidate& candidate : find_candidates()) {
       const std::uint32_t v = candidate.vertex;
       if (is_busy[v] != 0) continue;
-      if (!move(on, candidate)) {
+      if (!move(candidate)) {
         is_hopeless_[v] = 1;
         continue;
       }
       moved.push_back(v);
       for_each_around(v, [&](std::uint32_t w) { is_busy[w] = 1; });
     }
-    const std::vector<std::uint32_t> tried = moved;
-    take_back_crossing(before, moved);
+    const std::size_t tried = moved.size();
+    take_back_crossing(before.positions, moved);
     for (const std::uint32_t v : moved) {
       is_moved_[v] = 1;
       for_each_around(v, [&](std::uint32_t w) { is_hopeless_[w] = 0; });
@@ -115,8 +113,8 @@ class Reacher {
     for (const std::uint32_t v : moved)
       turn_edges(v);
     mesh_.triangles = table_.triangles();
-    if (!tried.empty()) keep_points_near(tried);
-    return {.tried = tried.size(), .moved = moved.size()};
+    on_.find_again(mesh_, table_, changes_since(before));
+    return {.tried = tried, .moved = moved.size()};
   }
 
   /// Takes vertices that moved, and now stick out alone, back toward their neighbours where that
@@ -125,14 +123,14 @@ class Reacher {
     for (int round = 0; round < kLowerings; ++round) {
       const std::vector<std::uint32_t> spikes = find_spikes();
       if (spikes.empty()) return;
-      const PointsOnFaces on(mesh_, table_, all_points_, kReach * options_.pixel_size);
-      const std::vector<Vec3> before = positions_;
+      const TriangleMesh before = geometry_of(mesh_);
       std::vector<std::uint32_t> lowered;
       for (const std::uint32_t v : spikes) {
-        if (lower(on, v)) lowered.push_back(v);
+        if (lower(v)) lowered.push_back(v);
       }
-      take_back_crossing(before, lowered);
+      take_back_crossing(before.positions, lowered);
       if (lowered.empty()) return;
+      on_.find_again(mesh_, table_, changes_since(before));
     }
   }
 
@@ -154,12 +152,12 @@ class Reacher {
   }
 
   /// @return whether the vertex got smoother
-  bool lower(const PointsOnFaces& on, std::uint32_t v) {
+  bool lower(std::uint32_t v) {
     const double rough = roughness_around(table_, positions_, v);
     if (rough <= kRough) return false;  // since a neighbour was lowered
     const Vec3 place = at(v);
     const Vec3 foot = mean_of_neighbors(v);
-    const std::vector<NearPoint> near = points_around(on, v);
+    const std::vector<NearPoint> near = points_around(v);
     const double most_error = error_around(v, near) / kClearGain;
     const double sharpest = std::min(sharpest_around(v), kSharp);
     double least = kSmoother * rough;
@@ -189,14 +187,14 @@ class Reacher {
     return sum / count;
   }
 
-  /// What is far from vertices that were to move is as hopeless as it was.
-  void keep_points_near(const std::vector<std::uint32_t>& tried) {
-    std::vector<Vec3> places;
-    places.reserve(tried.size());
-    for (const std::uint32_t v : tried)
-      places.push_back(at(v));
-    const double radius = kChanged * options_.pixel_size;
-    points_ = points_near(points_, grid_of(places, kHalf * radius), radius);
+  /// Flags faces that are not what they were; they keep their numbers, and others follow them.
+  [[nodiscard]] std::vector<std::uint8_t> changes_since(const TriangleMesh& before) const {
+    return flags_of(mesh_.triangles.size(), [&](std::size_t f) {
+      const Triangle& t = mesh_.triangles[f];
+      if (f >= before.triangles.size() || t != before.triangles[f]) return true;
+      return std::any_of(t.begin(), t.end(),
+                         [&](std::uint32_t v) { return at(v) != before.positions[v]; });
+    });
   }
 
   /// A vertex next to points that are to be reached.
@@ -225,11 +223,11 @@ class Reacher {
   }
 
   /// Those of the farthest points first.
-  [[nodiscard]] std::vector<Candidate> find_candidates(const PointsOnFaces& on) const {
+  [[nodiscard]] std::vector<Candidate> find_candidates() const {
     std::vector<Candidate> of_vertex(positions_.size());
     for (std::uint32_t f = 0; f < table_.face_count(); ++f) {
-      for (const std::uint32_t index : on.of_face(f)) {
-        const Vec3& p = on.point(index);
+      for (const std::uint32_t index : on_.of_face(f)) {
+        const Vec3& p = on_.point(index);
         const double distance2 = distance2_to(f, p);
         if (distance2 < short_ * short_) continue;
         const std::uint32_t v = nearest_corner(f, p);
@@ -261,10 +259,10 @@ class Reacher {
   }
 
   /// Moves a vertex if that is better. @return whether it has
-  bool move(const PointsOnFaces& on, const Candidate& candidate) {
+  bool move(const Candidate& candidate) {
     const std::uint32_t v = candidate.vertex;
     const Vec3 place = at(v);
-    const std::vector<NearPoint> near = points_around(on, v);
+    const std::vector<NearPoint> near = points_around(v);
     const double error = error_around(v, near);
     const double sharpest = std::min(sharpest_around(v), kSharp);
     const int in_air = places_in_air(v);
@@ -280,8 +278,7 @@ class Reacher {
   }
 
   /// The points next to the faces around a vertex and its neighbours.
-  [[nodiscard]] std::vector<NearPoint> points_around(const PointsOnFaces& on,
-                                                     std::uint32_t v) const {
+  [[nodiscard]] std::vector<NearPoint> points_around(std::uint32_t v) const {
     std::vector<std::uint32_t> moving, faces;
     table_.for_each_corner(v, [&](std::uint32_t c) { moving.push_back(c / 3); });
     table_.for_each_neighbor(v, [&](std::uint32_t w) {
@@ -291,8 +288,8 @@ class Reacher {
     faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
     std::vector<NearPoint> near;
     for (const std::uint32_t f : faces) {
-      for (const std::uint32_t index : on.of_face(f))
-        near.push_back({on.point(index), std::numeric_limits<double>::infinity()});
+      for (const std::uint32_t index : on_.of_face(f))
+        near.push_back({on_.point(index), std::numeric_limits<double>::infinity()});
     }
     std::erase_if(faces, [&](std::uint32_t f) {
       return std::find(moving.begin(), moving.end(), f) != moving.end();
@@ -421,12 +418,11 @@ class Reacher {
 
   std::vector<Vec3>& positions_;
   TriangleMesh& mesh_;
-  std::vector<Vec3> all_points_;
-  std::vector<Vec3> points_;  ///< those that may lead on
   const PointGrid& cloud_;
   const ReachPointsOptions& options_;
   double short_;
   CornerTable table_;
+  PointsOnFaces on_;
   std::vector<std::uint8_t> is_hopeless_;  ///< vertices that have no good move as things are
   std::vector<std::uint8_t> is_moved_;     ///< or came when an edge of those was split
 };

@@ -26,8 +26,8 @@ struct ReachPointsOptions {
 /// of their surroundings (core/finish/angle_defect.h) go back toward their neighbours, where the
 /// points around do not clearly (by 30 %) speak for them: where scans lie in layers, the farthest
 /// layer has a few points here and there. Clouds with noise of over h / 8 are left alone. The
-/// topology and the boundary stay. Cost: in up to ten rounds the points within 2 h of those to be
-/// reached, fewer with each, and the faces within 8 h.
+/// topology and the boundary stay. Cost: the points within 2 h of those to be
+/// reached, and the faces within 8 h; in up to ten rounds again those near what has moved.
 /// @return moves that were made
 /// @pre oriented, manifold (core/finish/clean_topology.h); nothing crosses
 std::size_t reach_points(TriangleMesh& mesh, const PointGrid& cloud,
