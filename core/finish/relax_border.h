@@ -7,7 +7,7 @@
 namespace rangezip {
 
 /// Evens out the triangles along the border, whose edges are as long as the end of the cloud asks
-/// for: inner vertices within two edges of it move to the middle of their faces and onto the
+/// for: inner vertices within three edges of it move to the middle of their faces and onto the
 /// surface of the cloud where that makes better angles, edges turn, and vertices with a small angle
 /// are collapsed, as relax_features() does beside features. The border stays, and so do vertices
 /// with a crease (30 degrees) among their faces. Without self-intersections before there are none

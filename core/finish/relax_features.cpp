@@ -1,6 +1,7 @@
 #include "core/finish/relax_features.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/finish/edge_changes.h"
 #include "core/finish/feature_sides.h"
@@ -11,8 +12,9 @@ namespace rangezip {
 namespace {
 
 constexpr int kRounds = 5;
-constexpr int kRings = 2;
-constexpr double kGain = 0.005;      // of the sine of the smallest angle, or of their mean
+constexpr int kRings = 3;            // around features: vertices that move
+constexpr int kRingsToTurn = 2;      // whose edges turn, and which may go
+constexpr double kGain = 0.002;      // of the sine of the smallest angle, or of their mean
 constexpr double kKeptAngle = 0.5;   // sine: 30 degrees, for the sake of the mean
 constexpr double kOneSide = 0.95;    // cosine: faces of one side
 constexpr double kTurn = 0.9;        // cosine: how far a face may turn
@@ -23,15 +25,23 @@ class Relaxer {
  public:
   Relaxer(CornerTable& table, std::vector<Vec3>& positions,
           const std::vector<std::uint8_t>& is_feature, const VertexSides& sides)
-      : table_(table), positions_(positions), is_feature_(is_feature), sides_(sides) {}
+      : table_(table),
+        positions_(positions),
+        is_feature_(is_feature),
+        sides_(sides),
+        may_relax_(positions.size(), 1),
+        may_turn_(positions.size(), 1) {}
 
   void run() {
-    const std::vector<std::uint32_t> vertices = near_features();
+    const std::vector<std::uint32_t> vertices = near_features(kRingsToTurn);
+    const std::vector<std::uint32_t> relaxed = near_features(kRings);
     for (int round = 0; round < kRounds; ++round) {
-      for (const std::uint32_t v : vertices)
-        relax(v);
-      for (const std::uint32_t v : vertices)
-        turn_edges(v);
+      for (const std::uint32_t v : relaxed) {
+        if (std::exchange(may_relax_[v], std::uint8_t{0}) != 0) relax(v);
+      }
+      for (const std::uint32_t v : vertices) {
+        if (std::exchange(may_turn_[v], std::uint8_t{0}) != 0) turn_edges(v);
+      }
       if (round < kMendFrom) continue;
       for (const std::uint32_t v : vertices)
         mend(v);
@@ -41,8 +51,15 @@ class Relaxer {
  private:
   [[nodiscard]] const Vec3& at(std::uint32_t vertex) const { return positions_[vertex]; }
 
-  /// The inner vertices within kRings edges of a feature, in order.
-  [[nodiscard]] std::vector<std::uint32_t> near_features() const {
+  /// What has been in vain at a vertex and those around may be good now that it has changed.
+  void try_again_around(std::uint32_t v) {
+    const auto note = [&](std::uint32_t w) { may_relax_[w] = may_turn_[w] = 1; };
+    note(v);
+    table_.for_each_neighbor(v, note);
+  }
+
+  /// The inner vertices within so many edges of a feature, in order.
+  [[nodiscard]] std::vector<std::uint32_t> near_features(int rings) const {
     std::vector<std::uint8_t> is_near(is_feature_.size());
     std::vector<std::uint32_t> vertices;
     const auto add = [&](std::uint32_t v) {
@@ -54,7 +71,7 @@ class Relaxer {
       if (is_feature_[v] != 0 && table_.corner_of(v) != CornerTable::kNone) add(v);
     }
     std::size_t begin = 0;
-    for (int ring = 0; ring < kRings; ++ring) {
+    for (int ring = 0; ring < rings; ++ring) {
       const std::size_t end = vertices.size();
       for (; begin < end; ++begin)
         table_.for_each_neighbor(vertices[begin], add);
@@ -75,6 +92,7 @@ class Relaxer {
     if (!place || !has_better_angles(v, *place, before)) return;
     if (before >= 0.0 && turns_face(v, *place)) return;
     positions_[v] = *place;
+    try_again_around(v);
   }
 
   /// Sine of the smallest angle of the faces around a vertex, were it at `place`; where faces look
@@ -158,7 +176,11 @@ class Relaxer {
       most = gain;
       worst = c;
     });
-    if (worst != CornerTable::kNone) table_.flip(worst);
+    if (worst == CornerTable::kNone) return;
+    const Diamond turned(table_, worst);
+    table_.flip(worst);
+    for (const std::uint32_t w : {turned.a, turned.b, turned.x, turned.y})
+      try_again_around(w);
   }
 
   /// Where relaxing did not open a fold or a small angle, the vertex goes.
@@ -174,7 +196,10 @@ class Relaxer {
       best = angle;
       into = c;
     });
-    if (into != CornerTable::kNone) table_.collapse(into);
+    if (into == CornerTable::kNone) return;
+    const std::uint32_t target = table_.head(into);
+    table_.collapse(into);
+    try_again_around(target);
   }
 
   /// The smallest angle of the faces around the half-edge's vertex after it moved into the head; -1
@@ -195,6 +220,8 @@ class Relaxer {
   std::vector<Vec3>& positions_;
   const std::vector<std::uint8_t>& is_feature_;
   const VertexSides& sides_;
+  std::vector<std::uint8_t> may_relax_;  ///< 0 where nothing has changed since it was in vain
+  std::vector<std::uint8_t> may_turn_;
 };
 
 }  // namespace

@@ -26,12 +26,13 @@ struct VertexSides {
 [[nodiscard]] bool is_crease(const CornerTable& table, const std::vector<Vec3>& positions,
                              std::uint32_t corner);
 
-/// Evens out the triangles along features: vertices on an edge slide along it, vertices within two
-/// edges of one within their side, each towards the middle of its neighbours, as long as the
+/// Evens out the triangles along features: vertices on an edge slide along it, and those within
+/// three edges of one within their side, each towards the middle of its neighbours, as long as the
 /// smallest angle around it grows, or those of its faces do on average and none falls under 30
-/// degrees; angles of faces that look the wrong way count as negative, so
-/// folds open. Edges between faces of one side are turned where that makes the smallest angle grow.
-/// Corners stay, and so does what is farther away.
+/// degrees; angles of faces that look the wrong way count as negative, so folds open. Within two
+/// edges, those between faces of one side are turned where that makes the smallest angle grow, and
+/// vertices with an angle under 24 degrees that stays go into a neighbour. Corners stay, and so
+/// does what is farther away. What has been in vain is tried again where something changed around.
 /// Linear in what is near features. @param is_feature per vertex: 1 on an edge, 2 at a corner
 void relax_features(CornerTable& table, std::vector<Vec3>& positions,
                     const std::vector<std::uint8_t>& is_feature, const VertexSides& sides);

@@ -109,7 +109,7 @@ TEST_CASE("what is far from the border does not move, nor anything of a closed m
   relax_border(sheet, cloud, kFit);
   for (std::size_t v = 0; v < sheet.positions.size(); ++v) {
     const Vec3& p = before.positions[v];
-    if (std::max(std::abs(p.x), std::abs(p.y)) < 1.0 - 3.0 * kH) REQUIRE(sheet.positions[v] == p);
+    if (std::max(std::abs(p.x), std::abs(p.y)) < 1.0 - 4.0 * kH) REQUIRE(sheet.positions[v] == p);
   }
   TriangleMesh ball = testing::sphere(kN);
   const TriangleMesh ball_before = ball;
