@@ -30,6 +30,9 @@ constexpr double kPixelsPerNoise = 2.5;
 constexpr double kUsual = 1.5;
 /// Of the spacing: an outlier's distance from its neighbours' plane is half of it.
 constexpr double kOnPlane = 0.25;
+/// Of the distance to the farthest neighbour: so far is the middle of an outlier's, where those are
+/// a spot of the surface that it lies off. At the corner of a square sheet it is 0.6.
+constexpr double kAside = 0.75;
 
 /// Points looked at before all others, so that the search radius is small from then on.
 constexpr std::size_t kFirstLook = 20'000;
@@ -213,16 +216,31 @@ double gap_at(const ContourPlace& place, std::span<const Vec3> points) {
   return std::clamp(glm::length(other), gap, kUsualGaps * gap);
 }
 
+/// Whether all of the neighbours lie on the same side of the centre.
+bool is_aside(const Neighbourhood& neighbourhood) {
+  Vec3 sum{0.0};
+  for (const Vec3& place : neighbourhood.places())
+    sum += place - neighbourhood.center();
+  const auto count = static_cast<double>(neighbourhood.places().size());
+  return glm::length(sum) > kAside * count * neighbourhood.farthest();
+}
+
+/// Whether a point lies off the surface, if others are as close together as the median tells.
+bool is_outlier(const Neighbourhood& neighbourhood, double noise, double median) {
+  const double spacing = spacing_of(neighbourhood);
+  return spacing > kUsual * median && (noise > kOnPlane * spacing || is_aside(neighbourhood));
+}
+
 /// The spacing that so large a share of the surface does not exceed.
-double quantile_of_surface(const std::vector<double>& spacings, const std::vector<double>& noises,
-                           double median, double share) {
+double quantile_of_surface(std::span<const Neighbourhood> queries,
+                           const std::vector<double>& noises, double median, double share) {
   std::vector<double> on_surface;
   double area = 0.0;
-  for (std::size_t i = 0; i < spacings.size(); ++i) {
-    const bool is_outlier = spacings[i] > kUsual * median && noises[i] > kOnPlane * spacings[i];
-    if (is_outlier) continue;
-    on_surface.push_back(spacings[i]);
-    area += spacings[i] * spacings[i];
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    if (is_outlier(queries[i], noises[i], median)) continue;
+    const double spacing = spacing_of(queries[i]);
+    on_surface.push_back(spacing);
+    area += spacing * spacing;
   }
   std::sort(on_surface.begin(), on_surface.end());
   double sum = 0.0;
@@ -287,7 +305,7 @@ Spacing estimate_spacing(std::span<const Vec3> points) {
   }
   const std::vector<double> noises = noises_of(places);
   Spacing spacing{.median = quantile(spacings, 0.5), .quantile75 = quantile(spacings, 0.75)};
-  spacing.sparse = quantile_of_surface(spacings, noises, spacing.median, 0.75);
+  spacing.sparse = quantile_of_surface(queries, noises, spacing.median, 0.75);
   if (const auto contours = contour_spacing(points, queries)) spacing = *contours;
   spacing.near_noise = quantile(noises, 0.5);
   widen_over_noise(points, places);

@@ -67,6 +67,22 @@ TEST_CASE("a pixel is chosen for the sparse part of an uneven cloud, not for out
   CHECK(pixel_size_from_spacing(even) == Approx(2.2 * expected).epsilon(0.05));
 }
 
+TEST_CASE("no outliers make a cloud uneven, near its surface or far from it") {
+  // Of those near it, all neighbours are one spot of the surface: they lie in a plane with it.
+  const std::uint64_t seed = GENERATE(range(1, 11));
+  const double height = GENERATE(10.0, 40.0, 200.0);
+  const int share = GENERATE(20, 100);  // one in so many
+  CAPTURE(seed, height, share);
+  std::vector<Vec3> points = lattice(300, 1.0);
+  const double pixel = pixel_size_from_spacing(estimate_spacing(points));
+  shapes::Random random(seed);
+  const std::size_t count = points.size() / static_cast<std::size_t>(share);
+  for (std::size_t i = 0; i < count; ++i) {
+    points.push_back({300.0 * random.unit(), 300.0 * random.unit(), height * random.unit()});
+  }
+  CHECK(pixel_size_from_spacing(estimate_spacing(points)) == Approx(pixel).epsilon(0.25));
+}
+
 TEST_CASE("estimate_spacing is one over the root of the density of a random cloud") {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     CAPTURE(seed);
