@@ -33,6 +33,9 @@ constexpr double kOnPlane = 0.25;
 /// Of the distance to the farthest neighbour: so far is the middle of an outlier's, where those are
 /// a spot of the surface that it lies off. At the corner of a square sheet it is 0.6.
 constexpr double kAside = 0.75;
+/// The sparsest one in so many tells nothing: it may be an outlier that looks like surface (one in
+/// 25 does), and would stand for as much of it as a few hundred others.
+constexpr std::size_t kOneIn = 100;
 
 /// Points looked at before all others, so that the search radius is small from then on.
 constexpr std::size_t kFirstLook = 20'000;
@@ -225,25 +228,34 @@ bool is_aside(const Neighbourhood& neighbourhood) {
   return glm::length(sum) > kAside * count * neighbourhood.farthest();
 }
 
-/// Whether a point lies off the surface, if others are as close together as the median tells.
+/// Whether the neighbours are far from any plane; all of them, where too few to tell are on the
+/// centre's side of a gap: what lies far beyond it is no wall.
+bool is_off_plane(const Neighbourhood& neighbourhood, double noise) {
+  const double most = kOnPlane * spacing_of(neighbourhood);
+  if (noise > 0.0) return noise > most;
+  constexpr double kNoWall = std::numeric_limits<double>::infinity();
+  const auto offsets = offsets_of(neighbourhood, neighbourhood.places().size());
+  return distance_from_plane(offsets, kNoWall) > most;
+}
+
+/// Whether a point lies off the surface, where usual spacings are about the median.
 bool is_outlier(const Neighbourhood& neighbourhood, double noise, double median) {
-  const double spacing = spacing_of(neighbourhood);
-  return spacing > kUsual * median && (noise > kOnPlane * spacing || is_aside(neighbourhood));
+  return spacing_of(neighbourhood) > kUsual * median &&
+         (is_off_plane(neighbourhood, noise) || is_aside(neighbourhood));
 }
 
 /// The spacing that so large a share of the surface does not exceed.
 double quantile_of_surface(std::span<const Neighbourhood> queries,
                            const std::vector<double>& noises, double median, double share) {
   std::vector<double> on_surface;
-  double area = 0.0;
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    if (is_outlier(queries[i], noises[i], median)) continue;
-    const double spacing = spacing_of(queries[i]);
-    on_surface.push_back(spacing);
-    area += spacing * spacing;
+    if (!is_outlier(queries[i], noises[i], median)) on_surface.push_back(spacing_of(queries[i]));
   }
   std::sort(on_surface.begin(), on_surface.end());
-  double sum = 0.0;
+  on_surface.resize(on_surface.size() - std::min(on_surface.size(), queries.size() / kOneIn));
+  double area = 0.0, sum = 0.0;
+  for (const double spacing : on_surface)
+    area += spacing * spacing;
   for (const double spacing : on_surface) {
     sum += spacing * spacing;
     if (sum >= share * area) return spacing;

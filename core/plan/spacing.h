@@ -25,7 +25,8 @@ struct Spacing {
 /// one place count once, both as neighbours and as the points that are asked about. Exact
 /// neighbours by a scan over all points that asks few of the 300 per point: O(points), 30 ns each.
 /// Where points are sparse each of them stands for more of the surface: for as much as its squared
-/// spacing; one off the surface, as outliers are, stands for none.
+/// spacing; one off the surface, as outliers are, stands for none, nor does the sparsest one in a
+/// hundred, which may be an outlier that nothing tells.
 /// A cloud of contours, points dense along slices that are far apart, is told by neighbours that
 /// lie on a line: of more than half of those 300 the nearest five do. Its gap is the mean of median
 /// and 75 % quantile of how far the slices on both sides are, the farther one, but at most twice as
