@@ -17,23 +17,27 @@ constexpr std::size_t kPointsPerBlock = 512;
 
 std::vector<Vec3> left_out_points(std::span<const Vec3> points, const TriangleMesh& mesh,
                                   double distance) {
-  std::vector<Vec3> uncovered = points_off(points, mesh, distance);
-  if (uncovered.empty() || mesh.empty()) return uncovered;
+  return left_out_points(points, points_off(points, mesh, distance), mesh, distance);
+}
+
+std::vector<Vec3> left_out_points(std::span<const Vec3> points, const std::vector<Vec3>& farther,
+                                  const TriangleMesh& mesh, double distance) {
+  if (farther.empty() || mesh.empty()) return farther;
   const double radius = kSurroundings * distance;
   Box region = bounds_of(mesh);  // what lies outside is left out as a whole
   region.lower -= Vec3(radius);
   region.upper += Vec3(radius);
-  const PointGrid all(points, region, 0.5 * radius), missed(uncovered, region, 0.5 * radius);
-  std::vector<std::uint8_t> is_left_out(uncovered.size(), 0);
-  parallel_for(uncovered.size(), kPointsPerBlock, [&](std::size_t begin, std::size_t end) {
+  const PointGrid all(points, region, 0.5 * radius), missed(farther, region, 0.5 * radius);
+  std::vector<std::uint8_t> is_left_out(farther.size(), 0);
+  parallel_for(farther.size(), kPointsPerBlock, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const std::size_t around = all.count_within(uncovered[i], radius);
-      is_left_out[i] = 2 * missed.count_within(uncovered[i], radius) >= around ? 1 : 0;
+      const std::size_t around = all.count_within(farther[i], radius);
+      is_left_out[i] = 2 * missed.count_within(farther[i], radius) >= around ? 1 : 0;
     }
   });
   std::vector<Vec3> left_out;
-  for (std::size_t i = 0; i < uncovered.size(); ++i) {
-    if (is_left_out[i] != 0) left_out.push_back(uncovered[i]);
+  for (std::size_t i = 0; i < farther.size(); ++i) {
+    if (is_left_out[i] != 0) left_out.push_back(farther[i]);
   }
   return left_out;
 }

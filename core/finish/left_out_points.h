@@ -16,4 +16,9 @@ namespace rangezip {
 [[nodiscard]] std::vector<Vec3> left_out_points(std::span<const Vec3> points,
                                                 const TriangleMesh& mesh, double distance);
 
+/// The same, where the points are known that are farther from the mesh.
+[[nodiscard]] std::vector<Vec3> left_out_points(std::span<const Vec3> points,
+                                                const std::vector<Vec3>& farther,
+                                                const TriangleMesh& mesh, double distance);
+
 }  // namespace rangezip

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/base/parallel.h"
+#include "core/finish/left_out_points.h"
 #include "core/finish/papered_faces.h"
 #include "core/finish/point_grid.h"
 #include "core/mesh/coverage.h"
@@ -48,15 +49,18 @@ double total_area(std::span<const Place> places) {
 }
 
 void report_uncovered(std::span<const Vec3> points, const std::vector<std::uint8_t>& is_covered,
-                      double area_per_point, double pixel_size, CoverageReport& report) {
+                      const TriangleMesh& mesh, double area_per_point, double pixel_size,
+                      CoverageReport& report) {
   std::vector<Vec3> uncovered;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (is_covered[i] == 0) uncovered.push_back(points[i]);
   }
   report.uncovered_points = uncovered.size();
-  const std::vector<double> areas(uncovered.size(), area_per_point);
-  report.uncovered = places_of(uncovered, areas, kReach * pixel_size);
-  report.scattered_points = drop_scattered(report.uncovered, kMinPoints);
+  const std::vector<Vec3> left_out = left_out_points(points, uncovered, mesh, pixel_size);
+  const std::vector<double> areas(left_out.size(), area_per_point);
+  report.uncovered = places_of(left_out, areas, kReach * pixel_size);
+  report.scattered_points =
+      uncovered.size() - left_out.size() + drop_scattered(report.uncovered, kMinPoints);
   report.uncovered_area = total_area(report.uncovered);
 }
 
@@ -123,7 +127,7 @@ CoverageReport report_coverage(const SeenPoints& seen, const TriangleMesh& mesh,
   if (points.empty()) return report;
   report.share = covered / static_cast<double>(points.size());
   const double area_per_point = covered > 0.0 ? area_of_mesh(mesh) / covered : 0.0;
-  report_uncovered(points, is_covered, area_per_point, pixel_size, report);
+  report_uncovered(points, is_covered, mesh, area_per_point, pixel_size, report);
   if (mesh.empty()) return report;
   const double radius = kSupportRadius * std::max(pixel_size, std::sqrt(area_per_point));
   report_unsupported(mesh, supported_faces(points, mesh, radius), pixel_size, report);

@@ -13,7 +13,7 @@ namespace rangezip {
 struct CoverageReport {
   double share = 1.0;  ///< of the points that have a face within a pixel side
   std::size_t uncovered_points = 0;
-  std::size_t scattered_points = 0;  ///< of these, in no place: outliers
+  std::size_t scattered_points = 0;  ///< of these, in no place: outliers and the tails of noise
   double uncovered_area = 0.0;     ///< that the places stand for, square model units; an estimate:
                                    ///< each point stands for as much as covered ones on average
   std::vector<Place> uncovered;    ///< such as pockets that no view can reach; largest first
@@ -25,7 +25,8 @@ struct CoverageReport {
 
 /// Compares points with the mesh that was made of them. A face counts as supported if a point
 /// lies within 1.5 pixel sides, or 1.5 mean spacings if that is more, of its centroid. Fewer than
-/// ten points or faces together make no place. O(points + faces).
+/// ten points or faces together make no place, nor do points among others that have a face
+/// (core/finish/left_out_points.h). O(points + faces).
 /// @throws InvalidArgument if pixel_size is not positive and finite.
 [[nodiscard]] CoverageReport report_coverage(const SeenPoints& seen, const TriangleMesh& mesh,
                                              double pixel_size);

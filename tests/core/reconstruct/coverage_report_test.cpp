@@ -44,14 +44,29 @@ TEST_CASE("a whole sphere leaves nothing to report", "[reconstruct]") {
   CHECK(report.unsupported.empty());
 }
 
+TEST_CASE("the tails of noise are no places, however many points they have", "[reconstruct]") {
+  std::vector<Vec3> points = shapes::to_points(shapes::sampled(shapes::sphere(), 400'000, 5));
+  shapes::Random random(11);
+  for (Vec3& p : points)
+    p *= 1.0 + 0.4 * kPixel * random.normal();
+  const CoverageReport report =
+      report_coverage({points}, shapes::to_mesh(shapes::sphere(1.0, 96)), kPixel);
+  CHECK(report.share == Approx(0.99).margin(0.003));  // within 2.5 deviations
+  CHECK(report.uncovered.empty());
+  CHECK(report.uncovered_area == 0.0);
+  CHECK(report.scattered_points == report.uncovered_points);
+}
+
 TEST_CASE("a part of the cloud without a mesh is one place of its area", "[reconstruct]") {
   std::vector<Vec3> points = points_of_sphere();
   points.emplace_back(5.0, 0.0, 0.0);  // an outlier
   const CoverageReport report = report_coverage({points}, sphere_without_cap(), kPixel);
-  CHECK(report.scattered_points == 1);
+  // Along the rim some of the points just off the mesh are among more that have a face.
+  CHECK(report.scattered_points >= 1);
+  CHECK(report.scattered_points < report.uncovered_points / 50);
   REQUIRE(report.uncovered.size() == 1);
   const Place& place = report.uncovered.front();
-  CHECK(place.points == report.uncovered_points - 1);
+  CHECK(place.points == report.uncovered_points - report.scattered_points);
   // The points within a pixel of the rim are covered: of the cap, r = 0.44, about a fifth.
   CHECK(place.area > 0.7 * kCapArea);
   CHECK(place.area < kCapArea);
