@@ -282,21 +282,20 @@ class Greedy {
     return picked;
   }
 
-  /// The first view: of those that are worth nearly the most the one from farthest above, since an
-  /// open sheet such as a terrain looks alike from both sides and is meant to face up (z).
-  [[nodiscard]] std::size_t pick_first(const Worth& worth, std::span<const Vec3> directions) {
-    constexpr std::int64_t kNearlyMostPercent = 95;
-    std::int64_t greatest = 0;
-    for (std::size_t view = 0; view < views_.size(); ++view) {
+  /// The first view: of those that are worth nearly the most the one from farthest above.
+  /// @param one_sided an open sheet, such as a terrain, looks about alike from both sides, and is
+  ///     meant to face up (z), even where it is seen somewhat better from below
+  [[nodiscard]] std::size_t pick_first(const Worth& worth, std::span<const Vec3> directions,
+                                       bool one_sided) {
+    constexpr std::int64_t kAlikePercent = 85;
+    for (std::size_t view = 0; view < views_.size(); ++view)
       bounds_[view] = worth_of(views_[view], best_, worth);
-      greatest = std::max(greatest, bounds_[view]);
-    }
-    std::size_t picked = views_.size();
-    for (std::size_t view = 0; view < views_.size() && greatest > 0; ++view) {
-      if (100 * bounds_[view] < kNearlyMostPercent * greatest) continue;
-      if (picked == views_.size() || directions[view].z > directions[picked].z) picked = view;
-    }
-    return picked;
+    const std::size_t best = pick_highest(directions, Vec3(0.0));
+    if (!one_sided || best == views_.size() || directions[best].z >= 0.0) return best;
+    const std::size_t above = pick_highest(directions, -directions[best]);
+    const bool is_alike =
+        above != views_.size() && 100 * bounds_[above] >= kAlikePercent * bounds_[best];
+    return is_alike ? above : best;
   }
 
   /// Points that the view sees and none before.
@@ -315,6 +314,26 @@ class Greedy {
   }
 
  private:
+  /// Of the views from one side that are worth nearly the most of these the one from farthest above
+  /// (z); views_.size() if none is worth anything.
+  /// @param side less than 90 degrees from it; 0: all
+  [[nodiscard]] std::size_t pick_highest(std::span<const Vec3> directions, const Vec3& side) const {
+    constexpr std::int64_t kNearlyMostPercent = 95;
+    const auto is_of_side = [&](std::size_t view) {
+      return side == Vec3(0.0) || glm::dot(directions[view], side) > 0.0;
+    };
+    std::int64_t greatest = 0;
+    for (std::size_t view = 0; view < views_.size(); ++view) {
+      if (is_of_side(view)) greatest = std::max(greatest, bounds_[view]);
+    }
+    std::size_t picked = views_.size();
+    for (std::size_t view = 0; view < views_.size() && greatest > 0; ++view) {
+      if (!is_of_side(view) || 100 * bounds_[view] < kNearlyMostPercent * greatest) continue;
+      if (picked == views_.size() || directions[view].z > directions[picked].z) picked = view;
+    }
+    return picked;
+  }
+
   const std::vector<std::vector<Quality>>& views_;
   std::vector<std::int64_t> bounds_;
   std::vector<Quality> best_;  ///< of the views taken so far, per point
@@ -353,8 +372,9 @@ ViewPlan plan_for(Rasterizer& rasterizer, const Subset& subset, const ViewPlanOp
   while (plan.directions.size() < static_cast<std::size_t>(options.max_views) &&
          static_cast<double>(seen) < wanted) {
     progress.check_stop();
-    const std::size_t view =
-        plan.directions.empty() ? greedy.pick_first(worth, directions) : greedy.pick(worth);
+    const std::size_t view = plan.directions.empty()
+                                 ? greedy.pick_first(worth, directions, options.one_sided)
+                                 : greedy.pick(worth);
     if (view == directions.size()) break;
     const std::size_t newly_seen = greedy.newly_seen(view);
     if (plan.directions.size() >= views_for_quality && static_cast<double>(newly_seen) < min_new) {

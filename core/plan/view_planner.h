@@ -20,7 +20,8 @@ struct ViewPlanOptions {
   double min_gain = 0.0005;         ///< stop when a view adds less than this share
   int views_for_quality = 6;        ///< so many views may add less, since they see points better
   bool one_sided = false;           ///< only views less than 90 degrees from the first one: an open
-                                    ///< sheet is scanned from one side
+                                    ///< sheet is scanned from one side, the upper one (z) if what
+                                    ///< it shows is worth 85 % of what the other does
 };
 
 /// Directions toward the viewer, best first, and what they reach.

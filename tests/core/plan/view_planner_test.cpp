@@ -64,6 +64,27 @@ TEST_CASE("plan_views look into a pocket from where its floor is seen") {
                     [](const Vec3& direction) { return direction.z > 0.89; }));
 }
 
+TEST_CASE("plan_views of an open sheet begin above it, even where it looks better from below") {
+  // Seen from above, a rough canopy hides a fifth of the flat ground; from below it is the canopy
+  // that is hidden.
+  const std::uint64_t seed = GENERATE(1U, 2U, 3U);
+  CAPTURE(seed);
+  shapes::Random random(seed);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 40'000; ++i)
+    points.push_back({random.between(-1.0, 1.0), random.between(-1.0, 1.0), 0.0});
+  for (int i = 0; i < 8'000; ++i) {
+    const double x = random.between(-0.2, 0.2);
+    points.push_back({x, random.between(-1.0, 1.0), 0.2 + 0.1 * random.unit()});
+  }
+  const auto worth_below = plan_for(points).directions.front();
+  REQUIRE(worth_below.z < 0.0);
+  const ViewPlan plan = plan_for(points, {.one_sided = true});
+  CHECK(plan.directions.front().z > 0.9);
+  for (const Vec3& direction : plan.directions)
+    CHECK(glm::dot(direction, plan.directions.front()) > 0.0);
+}
+
 TEST_CASE("plan_views_of look at their targets only, past what hides them") {
   // The floor of a pocket is seen from above, within 30 degrees; the axes are among the candidates.
   const std::vector<Vec3> points = points_on(shapes::pocket(1.0));
