@@ -2,19 +2,12 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "core/finish/corner_table.h"
 
 namespace rangezip {
 namespace {
-
-/// An open component with fewer faces than this part of the largest is a shred.
-constexpr std::size_t kShredShare = 200;
-
-/// Area vector over area: of half a sphere. What is flatter has no inside, nor pockets.
-constexpr double kFlatSheet = 0.5;
 
 bool repeats_corner(const Triangle& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
@@ -119,20 +112,6 @@ bool mark_extra_fans(const TriangleMesh& mesh, std::vector<std::uint8_t>& droppe
   return true;
 }
 
-/// Whether a component is a sheet that is seen as a whole from one side.
-bool is_flat_sheet(const TriangleMesh& mesh, const std::vector<std::uint32_t>& component,
-                   std::uint32_t which) {
-  Vec3 across{0.0};
-  double area = 0.0;
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    if (component[f] != which) continue;
-    const Triangle& t = mesh.triangles[f];
-    across += 0.5 * area_vector(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
-    area += area_of_face(mesh.positions, t);
-  }
-  return glm::length(across) >= kFlatSheet * area;
-}
-
 }  // namespace
 
 std::size_t clean_topology(TriangleMesh& mesh) {
@@ -148,46 +127,6 @@ std::size_t clean_topology(TriangleMesh& mesh) {
     remove_triangles(mesh.triangles, dropped);
   }
   return before - mesh.triangles.size();
-}
-
-DroppedComponents drop_small_components(TriangleMesh& mesh, const CornerTable& table,
-                                        const std::vector<std::uint32_t>& component,
-                                        std::size_t min_faces) {
-  std::vector<std::size_t> sizes;
-  std::vector<std::uint8_t> is_open;
-  for (std::uint32_t c = 0; c < table.corner_count(); ++c) {
-    const std::uint32_t k = component[c / 3];
-    if (k >= sizes.size()) {
-      sizes.resize(k + 1, 0);
-      is_open.resize(k + 1, 0);
-    }
-    if (c % 3 == 0) ++sizes[k];
-    if (table.across(c) == CornerTable::kNone) is_open[k] = 1;
-  }
-  DroppedComponents result;
-  if (sizes.empty()) return result;
-  const auto largest =
-      static_cast<std::size_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
-  std::optional<bool> is_scene;  // asked of the largest once there is a shred
-  std::vector<std::uint8_t> goes(sizes.size(), 0);
-  for (std::size_t k = 0; k < sizes.size(); ++k) {
-    if (k == largest) continue;
-    const bool is_small = sizes[k] < min_faces;
-    const bool may_be_shred =
-        min_faces > 0 && is_open[k] != 0 && kShredShare * sizes[k] < sizes[largest];
-    if (!is_small && may_be_shred && !is_scene)
-      is_scene = is_flat_sheet(mesh, component, static_cast<std::uint32_t>(largest));
-    if (!is_small && (!may_be_shred || *is_scene)) continue;
-    goes[k] = 1;
-    ++result.components;
-    result.faces += sizes[k];
-  }
-  if (result.components == 0) return result;
-  std::vector<std::uint8_t> dropped(mesh.triangles.size(), 0);
-  for (std::size_t f = 0; f < dropped.size(); ++f)
-    dropped[f] = goes[component[f]];
-  remove_triangles(mesh.triangles, dropped);
-  return result;
 }
 
 }  // namespace rangezip

@@ -12,6 +12,7 @@
 
 #include "core/finish/border_gaps.h"
 #include "core/finish/border_step.h"
+#include "core/finish/clean_topology.h"
 #include "core/finish/components.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/face_grid.h"
@@ -260,7 +261,7 @@ class Extender {
     clean_topology(mesh_);
     const CornerTable table(mesh_.triangles, mesh_.positions.size());
     const DroppedComponents dropped =
-        drop_small_components(mesh_, table, components_of(table), min_component_);
+        drop_small_components(mesh_, table, components_of(table), {min_component_, h_});
     sum.components += dropped.components;
     sum.faces += dropped.faces;
   }

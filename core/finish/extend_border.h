@@ -3,8 +3,8 @@
 #include <cstddef>
 
 #include "core/base/progress.h"
-#include "core/finish/clean_topology.h"
 #include "core/finish/point_grid.h"
+#include "core/finish/small_pieces.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace rangezip {

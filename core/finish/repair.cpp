@@ -18,6 +18,7 @@
 #include "core/finish/join_loops.h"
 #include "core/finish/local_plane.h"
 #include "core/finish/mesh_pieces.h"
+#include "core/finish/small_pieces.h"
 #include "core/finish/take_back_losses.h"
 #include "core/finish/verified_fills.h"
 #include "core/mesh/self_intersection.h"
@@ -273,8 +274,8 @@ class Repairer {
   }
 
   void drop_small(MeshPieces& pieces) {
-    const DroppedComponents dropped =
-        drop_small_components(mesh_, pieces.table, pieces.component, options_.min_component);
+    const DroppedComponents dropped = drop_small_components(
+        mesh_, pieces.table, pieces.component, {options_.min_component, options_.pixel_size});
     if (dropped.faces > 0) pieces = look_at_pieces();
     report_.dropped_components += dropped.components;
     report_.dropped_faces += dropped.faces;

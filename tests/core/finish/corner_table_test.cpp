@@ -39,11 +39,6 @@ TriangleMesh mesh_of(const CornerTable& table) {
   return {std::vector<Vec3>(table.vertex_count(), Vec3{0.0}), table.triangles(), {}};
 }
 
-DroppedComponents drop_small(TriangleMesh& mesh, std::size_t min_faces) {
-  const CornerTable table(mesh.triangles, mesh.positions.size());
-  return drop_small_components(mesh, table, components_of(table), min_faces);
-}
-
 TEST_CASE("random flips, collapses and splits keep the surface manifold and its topology") {
   const std::uint64_t seed = GENERATE(1U, 2U, 3U);
   const bool open = GENERATE(false, true);
@@ -163,56 +158,6 @@ TEST_CASE("components are numbered in order of their first face") {
   std::vector<std::uint32_t> expected(12, 0);
   expected.resize(mesh.triangles.size(), 1);
   REQUIRE(components_of(CornerTable(mesh.triangles, mesh.positions.size())) == expected);
-
-  TriangleMesh kept = mesh;
-  const DroppedComponents dropped = drop_small(kept, 13);
-  REQUIRE(dropped.components == 1);
-  REQUIRE(dropped.faces == 12);
-  REQUIRE(kept.triangles.size() == other.triangles.size());
-  kept = mesh;
-  REQUIRE(drop_small(kept, 100000).components == 1);  // the largest one stays
-  REQUIRE(kept.triangles.size() == other.triangles.size());
-}
-
-TEST_CASE(
-    "an open piece of less than a two-hundredth of the mesh is a shred, a closed one is not") {
-  const TriangleMesh large = testing::sphere(24);  // 6912 faces: shreds have up to 34
-  const bool is_open = GENERATE(false, true);
-  CAPTURE(is_open);
-  TriangleMesh mesh = large;
-  TriangleMesh piece = testing::cube(1);
-  if (is_open) piece.triangles.pop_back();
-  const auto shift = static_cast<std::uint32_t>(mesh.positions.size());
-  for (const Vec3& p : piece.positions)
-    mesh.positions.push_back(p + Vec3(5, 0, 0));
-  for (const Triangle& t : piece.triangles)
-    mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
-  TriangleMesh kept = mesh;
-  REQUIRE(drop_small(kept, 0).components == 0);
-  REQUIRE(kept == mesh);
-  REQUIRE(drop_small(kept, 5).components == (is_open ? 1U : 0U));
-  REQUIRE(kept.triangles == (is_open ? large : mesh).triangles);
-}
-
-TEST_CASE("beside a sheet flatter than half a sphere an open piece is no shred") {
-  // Caps of a sphere: area vector over area is (1 + height) / 2 with the height of the plane that
-  // cuts them off, here for 6912 faces of the whole sphere.
-  const double height = GENERATE(-0.2, 0.2);
-  CAPTURE(height);
-  TriangleMesh mesh = testing::sphere(24);
-  testing::cut_where(mesh, [&](const Vec3& p) { return p.z < height; });
-  const std::size_t of_cap = mesh.triangles.size();
-  TriangleMesh piece = testing::cube(1);
-  piece.triangles.pop_back();
-  const auto shift = static_cast<std::uint32_t>(mesh.positions.size());
-  for (const Vec3& p : piece.positions)
-    mesh.positions.push_back(p + Vec3(0, 0, 5));
-  for (const Triangle& t : piece.triangles)
-    mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
-  const bool stays = height > 0.0;
-  CHECK(drop_small(mesh, 5).components == (stays ? 0U : 1U));
-  CHECK(mesh.triangles.size() == of_cap + (stays ? piece.triangles.size() : 0U));
-  CHECK(drop_small(mesh, 12).components == (stays ? 1U : 0U));  // small ones go beside any
 }
 
 TEST_CASE("clean_topology makes any soup of faces manifold and leaves manifolds alone") {

@@ -403,7 +403,7 @@ TEST_CASE("small pieces are dropped and counted") {
   const TriangleMesh crumb = testing::cube(2);
   const auto shift = static_cast<std::uint32_t>(mesh.positions.size());
   for (const Vec3& p : crumb.positions)
-    mesh.positions.push_back(0.1 * p + Vec3(3, 0, 0));
+    mesh.positions.push_back(0.1 * p + Vec3(1.3, 0, 0));
   for (const Triangle& t : crumb.triangles) {
     mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
   }

@@ -1,0 +1,118 @@
+#include "core/finish/small_pieces.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/finish/components.h"
+#include "core/finish/places_near.h"
+
+namespace rangezip {
+namespace {
+
+/// An open component with fewer faces than this part of the largest is a shred.
+constexpr std::size_t kShredShare = 200;
+
+/// Area vector over area: of half a sphere. What is flatter has no inside, nor pockets.
+constexpr double kFlatSheet = 0.5;
+
+/// What stands apart by so many h needs two fifths of the faces: a ball of 3.5 h has so many of
+/// 100.
+constexpr double kApart = 3.0;
+constexpr std::size_t kFifthsApart = 2;
+
+/// Whether a component is a sheet that is seen as a whole from one side.
+bool is_flat_sheet(const TriangleMesh& mesh, const std::vector<std::uint32_t>& component,
+                   std::uint32_t which) {
+  Vec3 across{0.0};
+  double area = 0.0;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    if (component[f] != which) continue;
+    const Triangle& t = mesh.triangles[f];
+    across += 0.5 * area_vector(mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]);
+    area += area_of_face(mesh.positions, t);
+  }
+  return glm::length(across) >= kFlatSheet * area;
+}
+
+/// Flags the components with an edge at the border.
+std::vector<std::uint8_t> open_components(const CornerTable& table,
+                                          const std::vector<std::uint32_t>& component,
+                                          std::size_t count) {
+  std::vector<std::uint8_t> is_open(count, 0);
+  for (std::uint32_t c = 0; c < table.corner_count(); ++c) {
+    if (table.across(c) == CornerTable::kNone) is_open[component[c / 3]] = 1;
+  }
+  return is_open;
+}
+
+/// Takes the flags from components with a vertex close to one of a component that is not small.
+/// @param may_be_apart per component: small ones that are to be looked at
+void keep_apart(const TriangleMesh& mesh, const std::vector<std::uint32_t>& component,
+                const std::vector<std::size_t>& sizes, const SmallPieceOptions& options,
+                std::vector<std::uint8_t>& may_be_apart) {
+  const double distance = kApart * options.pixel_size;
+  std::vector<Vec3> larger;
+  for (std::size_t f = 0; f < component.size(); ++f) {
+    if (sizes[component[f]] < options.min_faces) continue;
+    for (const std::uint32_t v : mesh.triangles[f])
+      larger.push_back(mesh.positions[v]);
+  }
+  const PointGrid near = grid_of(larger, distance / 2.0);
+  for (std::size_t f = 0; f < component.size(); ++f) {
+    if (may_be_apart[component[f]] == 0) continue;
+    for (const std::uint32_t v : mesh.triangles[f]) {
+      if (near.has_point_within(mesh.positions[v], distance)) may_be_apart[component[f]] = 0;
+    }
+  }
+}
+
+/// Flags the small components that are bodies of their own.
+std::vector<std::uint8_t> small_bodies(const TriangleMesh& mesh,
+                                       const std::vector<std::uint32_t>& component,
+                                       const std::vector<std::size_t>& sizes,
+                                       const SmallPieceOptions& options) {
+  std::vector<std::uint8_t> is_body(sizes.size(), 0);
+  bool any = false;
+  for (std::size_t k = 0; k < sizes.size(); ++k) {
+    if (sizes[k] >= options.min_faces || 5 * sizes[k] < kFifthsApart * options.min_faces) continue;
+    is_body[k] = 1;
+    any = true;
+  }
+  if (any) keep_apart(mesh, component, sizes, options, is_body);
+  return is_body;
+}
+
+}  // namespace
+
+DroppedComponents drop_small_components(TriangleMesh& mesh, const CornerTable& table,
+                                        const std::vector<std::uint32_t>& component,
+                                        const SmallPieceOptions& options) {
+  DroppedComponents result;
+  const std::vector<std::size_t> sizes = component_sizes(component);
+  if (sizes.empty() || options.min_faces == 0) return result;
+  const std::vector<std::uint8_t> is_open = open_components(table, component, sizes.size());
+  const std::vector<std::uint8_t> is_body = small_bodies(mesh, component, sizes, options);
+  const auto largest =
+      static_cast<std::size_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+  std::optional<bool> is_scene;  // asked of the largest once there is a shred
+  std::vector<std::uint8_t> goes(sizes.size(), 0);
+  for (std::size_t k = 0; k < sizes.size(); ++k) {
+    if (k == largest) continue;
+    const bool is_small = sizes[k] < options.min_faces && is_body[k] == 0;
+    const bool may_be_shred = is_open[k] != 0 && kShredShare * sizes[k] < sizes[largest];
+    if (!is_small && may_be_shred && !is_scene)
+      is_scene = is_flat_sheet(mesh, component, static_cast<std::uint32_t>(largest));
+    if (!is_small && (!may_be_shred || *is_scene)) continue;
+    goes[k] = 1;
+    ++result.components;
+    result.faces += sizes[k];
+  }
+  if (result.components == 0) return result;
+  std::vector<std::uint8_t> dropped(mesh.triangles.size(), 0);
+  for (std::size_t f = 0; f < dropped.size(); ++f)
+    dropped[f] = goes[component[f]];
+  remove_triangles(mesh.triangles, dropped);
+  return result;
+}
+
+}  // namespace rangezip

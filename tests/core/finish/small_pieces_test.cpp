@@ -1,0 +1,92 @@
+#include "core/finish/small_pieces.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "core/finish/components.h"
+#include "tests/core/finish/shapes.h"
+
+namespace rangezip {
+namespace {
+
+constexpr double kFar = 10.0;  // of a pixel side with which nothing here stands apart
+
+DroppedComponents drop_small(TriangleMesh& mesh, std::size_t min_faces, double pixel_size = kFar) {
+  const CornerTable table(mesh.triangles, mesh.positions.size());
+  return drop_small_components(mesh, table, components_of(table), {min_faces, pixel_size});
+}
+
+void add(TriangleMesh& mesh, const TriangleMesh& piece, const Vec3& offset) {
+  const auto shift = static_cast<std::uint32_t>(mesh.positions.size());
+  for (const Vec3& p : piece.positions)
+    mesh.positions.push_back(p + offset);
+  for (const Triangle& t : piece.triangles)
+    mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+}
+
+TEST_CASE("components with fewer faces go, but never the largest one") {
+  TriangleMesh mesh = testing::cube(1);
+  const TriangleMesh other = testing::sphere(3);
+  add(mesh, other, {5, 0, 0});
+  TriangleMesh kept = mesh;
+  const DroppedComponents dropped = drop_small(kept, 13);
+  REQUIRE(dropped.components == 1);
+  REQUIRE(dropped.faces == 12);
+  REQUIRE(kept.triangles.size() == other.triangles.size());
+  kept = mesh;
+  REQUIRE(drop_small(kept, 100000).components == 1);
+  REQUIRE(kept.triangles.size() == other.triangles.size());
+}
+
+TEST_CASE("a small piece that stands apart from larger ones stays with two fifths of the faces") {
+  constexpr double kPixel = 0.1;
+  const double gap = GENERATE(2.0, 4.0);  // pixel sides
+  const std::size_t min_faces = GENERATE(13U, 30U, 31U);
+  CAPTURE(gap, min_faces);
+  TriangleMesh piece = testing::sphere(1);  // of 12 faces
+  for (Vec3& p : piece.positions)
+    p *= 0.1;
+  double leftmost = 0.0;
+  for (const Vec3& p : piece.positions)
+    leftmost = std::min(leftmost, p.x);
+  TriangleMesh mesh = testing::sphere(24);
+  add(mesh, piece, {1.0 + gap * kPixel - leftmost, 0, 0});
+  const bool stays = gap > 3.0 && min_faces <= 30;
+  CHECK(drop_small(mesh, min_faces, kPixel).components == (stays ? 0U : 1U));
+}
+
+TEST_CASE(
+    "an open piece of less than a two-hundredth of the mesh is a shred, a closed one is not") {
+  const TriangleMesh large = testing::sphere(24);  // 6912 faces: shreds have up to 34
+  const bool is_open = GENERATE(false, true);
+  CAPTURE(is_open);
+  TriangleMesh mesh = large;
+  TriangleMesh piece = testing::cube(1);
+  if (is_open) piece.triangles.pop_back();
+  add(mesh, piece, {5, 0, 0});
+  TriangleMesh kept = mesh;
+  REQUIRE(drop_small(kept, 0).components == 0);
+  REQUIRE(kept == mesh);
+  REQUIRE(drop_small(kept, 5).components == (is_open ? 1U : 0U));
+  REQUIRE(kept.triangles == (is_open ? large : mesh).triangles);
+}
+
+TEST_CASE("beside a sheet flatter than half a sphere an open piece is no shred") {
+  // Caps of a sphere: area vector over area is (1 + height) / 2 with the height of the plane that
+  // cuts them off, here for 6912 faces of the whole sphere.
+  const double height = GENERATE(-0.2, 0.2);
+  CAPTURE(height);
+  TriangleMesh mesh = testing::sphere(24);
+  testing::cut_where(mesh, [&](const Vec3& p) { return p.z < height; });
+  const std::size_t of_cap = mesh.triangles.size();
+  TriangleMesh piece = testing::cube(1);
+  piece.triangles.pop_back();
+  add(mesh, piece, {0, 0, 5});
+  const bool stays = height > 0.0;
+  CHECK(drop_small(mesh, 5).components == (stays ? 0U : 1U));
+  CHECK(mesh.triangles.size() == of_cap + (stays ? piece.triangles.size() : 0U));
+  CHECK(drop_small(mesh, 12).components == (stays ? 1U : 0U));  // small ones go beside any
+}
+
+}  // namespace
+}  // namespace rangezip
