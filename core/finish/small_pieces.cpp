@@ -15,10 +15,9 @@ constexpr std::size_t kShredShare = 200;
 /// Area vector over area: of half a sphere. What is flatter has no inside, nor pockets.
 constexpr double kFlatSheet = 0.5;
 
-/// What stands apart by so many h needs two fifths of the faces: a ball of 3.5 h has so many of
-/// 100.
+/// What stands apart by so many h, and has so many faces, as a ball of 2.5 h does, is a body.
 constexpr double kApart = 3.0;
-constexpr std::size_t kFifthsApart = 2;
+constexpr std::size_t kLeastBody = 40;
 
 /// Whether a component is a sheet that is seen as a whole from one side.
 bool is_flat_sheet(const TriangleMesh& mesh, const std::vector<std::uint32_t>& component,
@@ -45,19 +44,18 @@ std::vector<std::uint8_t> open_components(const CornerTable& table,
   return is_open;
 }
 
-/// Takes the flags from components with a vertex close to one of a component that is not small.
-/// @param may_be_apart per component: small ones that are to be looked at
+/// Takes the flags from components with a vertex close to one of a large component.
+/// @param may_be_apart per component: those that are to be looked at
 void keep_apart(const TriangleMesh& mesh, const std::vector<std::uint32_t>& component,
-                const std::vector<std::size_t>& sizes, const SmallPieceOptions& options,
+                const std::vector<std::uint8_t>& is_large, double distance,
                 std::vector<std::uint8_t>& may_be_apart) {
-  const double distance = kApart * options.pixel_size;
-  std::vector<Vec3> larger;
+  std::vector<Vec3> large;
   for (std::size_t f = 0; f < component.size(); ++f) {
-    if (sizes[component[f]] < options.min_faces) continue;
+    if (is_large[component[f]] == 0) continue;
     for (const std::uint32_t v : mesh.triangles[f])
-      larger.push_back(mesh.positions[v]);
+      large.push_back(mesh.positions[v]);
   }
-  const PointGrid near = grid_of(larger, distance / 2.0);
+  const PointGrid near = grid_of(large, distance / 2.0);
   for (std::size_t f = 0; f < component.size(); ++f) {
     if (may_be_apart[component[f]] == 0) continue;
     for (const std::uint32_t v : mesh.triangles[f]) {
@@ -66,19 +64,19 @@ void keep_apart(const TriangleMesh& mesh, const std::vector<std::uint32_t>& comp
   }
 }
 
-/// Flags the small components that are bodies of their own.
+/// Flags the components that are too small, but bodies of their own.
 std::vector<std::uint8_t> small_bodies(const TriangleMesh& mesh,
                                        const std::vector<std::uint32_t>& component,
-                                       const std::vector<std::size_t>& sizes,
+                                       const std::vector<std::size_t>& sizes, std::size_t largest,
                                        const SmallPieceOptions& options) {
-  std::vector<std::uint8_t> is_body(sizes.size(), 0);
+  std::vector<std::uint8_t> is_large(sizes.size(), 0), is_body(sizes.size(), 0);
   bool any = false;
   for (std::size_t k = 0; k < sizes.size(); ++k) {
-    if (sizes[k] >= options.min_faces || 5 * sizes[k] < kFifthsApart * options.min_faces) continue;
-    is_body[k] = 1;
-    any = true;
+    is_large[k] = k == largest || sizes[k] >= options.min_faces ? 1 : 0;
+    is_body[k] = is_large[k] == 0 && sizes[k] >= kLeastBody ? 1 : 0;
+    any = any || is_body[k] != 0;
   }
-  if (any) keep_apart(mesh, component, sizes, options, is_body);
+  if (any) keep_apart(mesh, component, is_large, kApart * options.pixel_size, is_body);
   return is_body;
 }
 
@@ -91,9 +89,9 @@ DroppedComponents drop_small_components(TriangleMesh& mesh, const CornerTable& t
   const std::vector<std::size_t> sizes = component_sizes(component);
   if (sizes.empty() || options.min_faces == 0) return result;
   const std::vector<std::uint8_t> is_open = open_components(table, component, sizes.size());
-  const std::vector<std::uint8_t> is_body = small_bodies(mesh, component, sizes, options);
   const auto largest =
       static_cast<std::size_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+  const std::vector<std::uint8_t> is_body = small_bodies(mesh, component, sizes, largest, options);
   std::optional<bool> is_scene;  // asked of the largest once there is a shred
   std::vector<std::uint8_t> goes(sizes.size(), 0);
   for (std::size_t k = 0; k < sizes.size(); ++k) {

@@ -23,9 +23,9 @@ struct SmallPieceOptions {
 /// open ones with less than a two-hundredth of the faces of the largest component, which are
 /// pieces of walls in pockets that no view connects. A sheet has no pockets if its area vector is
 /// at least half its area (it is flatter than half a sphere): beside it they are things of their
-/// own, such as roofs over a ground, and stay. A component that stands apart, by 3 h from all with
-/// `min_faces` faces, is a small body of its own, and needs only two fifths as many. The largest
-/// one (the earliest of equals) always stays. Positions stay. Cost: linear.
+/// own, such as roofs over a ground, and stay. A component of 40 faces that stands apart, by 3 h
+/// from all with `min_faces` faces, is a small body, and not dropped for its size. The largest one
+/// (the earliest of equals) always stays. Positions stay. Cost: linear.
 /// @param table of the mesh, as it is before
 /// @param component of each face: components_of(table)
 /// @pre oriented and manifold

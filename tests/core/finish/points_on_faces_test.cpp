@@ -1,5 +1,6 @@
 #include "core/finish/points_on_faces.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <limits>
 #include <random>
@@ -81,6 +82,46 @@ TEST_CASE("points belong to the nearest face within reach and follow it when ver
     p += kMove * Vec3{uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1)};
   on_faces.follow(table, mesh.positions);
   REQUIRE(count_and_check(on_faces, mesh, kMove) == within);
+}
+
+TEST_CASE("after some faces have changed the points are found as if anew") {
+  const std::uint64_t seed = GENERATE(1U, 2U, 3U, 4U);
+  CAPTURE(seed);
+  constexpr double kReach = 0.15;
+  std::mt19937_64 engine(seed);
+  TriangleMesh mesh = testing::sphere(8);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 4000; ++i) {
+    const Vec3 direction{uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1)};
+    points.push_back(uniform(engine, 0.8, 1.3) * glm::normalize(direction));
+  }
+  CornerTable table(mesh.triangles, mesh.positions.size());
+  PointsOnFaces on_faces(mesh, table, points, kReach);
+  for (int round = 0; round < 5; ++round) {
+    const TriangleMesh before = mesh;
+    for (int i = 0; i < 5; ++i) {
+      Vec3& p = mesh.positions[engine() % mesh.positions.size()];
+      p *= uniform(engine, 0.8, 1.2);
+      table.split_edge(static_cast<std::uint32_t>(engine() % table.corner_count()));
+      mesh.positions.push_back(glm::normalize(
+          Vec3{uniform(engine, -1, 1), uniform(engine, -1, 1), uniform(engine, -1, 1)}));
+    }
+    mesh.triangles = table.triangles();
+    std::vector<std::uint8_t> is_changed(mesh.triangles.size(), 1);
+    for (std::size_t f = 0; f < before.triangles.size(); ++f) {
+      const Triangle& t = mesh.triangles[f];
+      const bool is_same = t == before.triangles[f] && std::all_of(t.begin(), t.end(), [&](auto v) {
+                             return mesh.positions[v] == before.positions[v];
+                           });
+      is_changed[f] = is_same ? 0 : 1;
+    }
+    on_faces.find_again(mesh, table, is_changed);
+    const PointsOnFaces anew(mesh, table, points, kReach);
+    for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+      const auto found = on_faces.of_face(f), expected = anew.of_face(f);
+      REQUIRE(std::equal(found.begin(), found.end(), expected.begin(), expected.end()));
+    }
+  }
 }
 
 TEST_CASE("barycentric coordinates of a foot are those of the place in the plane") {

@@ -38,12 +38,12 @@ TEST_CASE("components with fewer faces go, but never the largest one") {
   REQUIRE(kept.triangles.size() == other.triangles.size());
 }
 
-TEST_CASE("a small piece that stands apart from larger ones stays with two fifths of the faces") {
+TEST_CASE("a small piece that stands apart from larger ones stays if it has 40 faces") {
   constexpr double kPixel = 0.1;
   const double gap = GENERATE(2.0, 4.0);  // pixel sides
-  const std::size_t min_faces = GENERATE(13U, 30U, 31U);
-  CAPTURE(gap, min_faces);
-  TriangleMesh piece = testing::sphere(1);  // of 12 faces
+  const int n = GENERATE(1, 2);
+  CAPTURE(gap, n);
+  TriangleMesh piece = testing::sphere(n);  // of 12 or 48 faces
   for (Vec3& p : piece.positions)
     p *= 0.1;
   double leftmost = 0.0;
@@ -51,8 +51,15 @@ TEST_CASE("a small piece that stands apart from larger ones stays with two fifth
     leftmost = std::min(leftmost, p.x);
   TriangleMesh mesh = testing::sphere(24);
   add(mesh, piece, {1.0 + gap * kPixel - leftmost, 0, 0});
-  const bool stays = gap > 3.0 && min_faces <= 30;
-  CHECK(drop_small(mesh, min_faces, kPixel).components == (stays ? 0U : 1U));
+  const bool stays = gap > 3.0 && n == 2;
+  CHECK(drop_small(mesh, 100, kPixel).components == (stays ? 0U : 1U));
+}
+
+TEST_CASE("of two balls that are both too small the first stays, and the second if it is apart") {
+  TriangleMesh mesh = testing::sphere(2);
+  add(mesh, testing::sphere(2), {2.5, 0, 0});
+  CHECK(drop_small(mesh, 100, 0.1).components == 0);
+  CHECK(drop_small(mesh, 100, 1.0).components == 1);
 }
 
 TEST_CASE(
