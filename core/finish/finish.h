@@ -35,7 +35,8 @@ struct FinishOptions {
                              ///< small pieces too: what is cleared along them in vain comes back
   bool follow_density = false;      ///< `full` makes smaller triangles where the cloud is so dense
                                     ///< that scans might have had pixels of under 0.6 h there
-  std::size_t min_component = 100;  ///< smaller pieces are dropped
+  std::size_t min_component = 100;  ///< smaller pieces are dropped, but for small bodies
+                                    ///< (core/finish/small_pieces.h)
   bool is_clean = false;  ///< no faces of the mesh cross, as stitches leave it: only those that
                           ///< come are checked
 };

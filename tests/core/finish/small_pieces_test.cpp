@@ -16,12 +16,10 @@ DroppedComponents drop_small(TriangleMesh& mesh, std::size_t min_faces, double p
   return drop_small_components(mesh, table, components_of(table), {min_faces, pixel_size});
 }
 
-void add(TriangleMesh& mesh, const TriangleMesh& piece, const Vec3& offset) {
-  const auto shift = static_cast<std::uint32_t>(mesh.positions.size());
-  for (const Vec3& p : piece.positions)
-    mesh.positions.push_back(p + offset);
-  for (const Triangle& t : piece.triangles)
-    mesh.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+void add(TriangleMesh& mesh, TriangleMesh piece, const Vec3& offset) {
+  for (Vec3& p : piece.positions)
+    p += offset;
+  testing::append(mesh, piece);
 }
 
 TEST_CASE("components with fewer faces go, but never the largest one") {

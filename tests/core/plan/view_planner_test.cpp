@@ -77,8 +77,7 @@ TEST_CASE("plan_views of an open sheet begin above it, even where it looks bette
     const double x = random.between(-0.2, 0.2);
     points.push_back({x, random.between(-1.0, 1.0), 0.2 + 0.1 * random.unit()});
   }
-  const auto worth_below = plan_for(points).directions.front();
-  REQUIRE(worth_below.z < 0.0);
+  REQUIRE(plan_for(points).directions.front().z < 0.0);
   const ViewPlan plan = plan_for(points, {.one_sided = true});
   CHECK(plan.directions.front().z > 0.9);
   for (const Vec3& direction : plan.directions)
