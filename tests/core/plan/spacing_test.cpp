@@ -69,7 +69,7 @@ TEST_CASE("a pixel is chosen for the sparse part of an uneven cloud, not for out
 
 TEST_CASE("no outliers make a cloud uneven, near its surface or far from it") {
   // Of those near it, all neighbours are one spot of the surface: they lie in a plane with it.
-  const std::uint64_t seed = GENERATE(range(1, 11));
+  const std::uint64_t seed = GENERATE(range<std::uint64_t>(1, 11));
   const double height = GENERATE(10.0, 40.0, 200.0);
   const int share = GENERATE(20, 100);  // one in so many
   CAPTURE(seed, height, share);
