@@ -12,6 +12,8 @@ namespace {
 constexpr double kFitRadius = 1.5;
 constexpr double kFitRadiusShare = 0.7;  // of the radius that the noise demands, if that is more
 constexpr double kFitHeight = 1.2;
+constexpr double kNarrowRadius = 1.2;
+constexpr double kNarrowBending = 0.25;  // per h
 constexpr int kMinFitPoints = 12;
 constexpr std::array kWiderWindows{1.0, 1.3, 1.7};  // where points are few
 constexpr double kCleanResidual = 0.008;  // of the points about a clean surface, beyond the noise
@@ -19,6 +21,14 @@ constexpr double kSureness = 3.0;         // standard deviations
 constexpr int kFitTerms = 6;
 constexpr double kMinCosine = 0.8;  // between the surface and the mesh
 constexpr double kStep = 0.3;       // beyond the noise
+
+/// Frobenius norm.
+double size_of(const Mat3& matrix) {
+  double square = 0.0;
+  for (int column = 0; column < 3; ++column)
+    square += glm::dot(matrix[column], matrix[column]);
+  return std::sqrt(square);
+}
 
 }  // namespace
 
@@ -55,8 +65,22 @@ Surroundings FeatureCloud::surroundings(const Vec3& place, std::vector<FeatureSi
 }
 
 VertexSurface FeatureCloud::surface_at(const Vec3& place, const Vec3& normal) const {
+  return surface_of(measured_at(place, normal), place, normal);
+}
+
+VertexSurface FeatureCloud::narrow_surface_at(const Vec3& place, const Vec3& normal) const {
   const double h = h_at(place);
-  const auto [fit, scatter] = measured_at(place, normal);
+  VertexSurface surface =
+      surface_of(measure_surface(cloud_, place, normal, {kNarrowRadius * h, kFitHeight * h, 0.0}),
+                 place, normal);
+  surface.is_clean = surface.is_clean && size_of(surface.bending) * h < kNarrowBending;
+  return surface;
+}
+
+VertexSurface FeatureCloud::surface_of(const MeasuredFit& measured, const Vec3& place,
+                                       const Vec3& normal) const {
+  const double h = h_at(place);
+  const auto& [fit, scatter] = measured;
   if (!fit.is_found || fit.count < kMinFitPoints || !(glm::dot(fit.normal, normal) > kMinCosine))
     return {.residual2 = h * h};
   // Of pure noise, hardly a mean square is larger.

@@ -17,11 +17,10 @@ constexpr double kProofRadius = 0.87;              // of that of the surrounding
 constexpr std::array kWiderProofs{1.0, 1.3, 1.7};  // where points are few
 constexpr int kMinProofPoints = 8;
 constexpr int kMinPointsOfSide = 2;
-constexpr double kProofSureness = 1.5;   // standard deviations
-constexpr double kProofResidual = 0.06;  // beyond the noise
-constexpr double kSharperShare = 0.5;    // of the residual of a smooth surface
-constexpr double kWidestFoot = 1.3;      // radii around a place on a side beside an edge
-constexpr double kNoSurface = 0.2;       // residual
+constexpr double kProofSureness = 1.5;  // standard deviations
+constexpr double kSharperShare = 0.5;   // of the residual of a smooth surface
+constexpr double kWidestFoot = 1.3;     // radii around a place on a side beside an edge
+constexpr double kNoSurface = 0.2;      // residual
 constexpr double kBeyond = 0.05;
 constexpr double kBeyondShare = 0.15;  // of the points: so few may lie where the side has ended
 constexpr int kMinSame = 2;            // points, of a side that has not
@@ -202,7 +201,7 @@ std::optional<double> residual2_of_sides(const Surroundings& around, const Vec3&
       return proof.nearest[i] >= kMinPointsOfSide;
     });
     if (proof.count < kMinProofPoints || !has_all) continue;
-    const double limit = kProofResidual * around.pixel_size;
+    const double limit = around.tolerance * around.pixel_size;
     const double scatter = 1.0 + kProofSureness * std::sqrt(2.0 / proof.count);
     if (!(proof.residual2 < limit * limit + scatter * around.noise2)) return std::nullopt;
     return proof.residual2;

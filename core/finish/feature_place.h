@@ -20,6 +20,7 @@ struct Surroundings {
   double noise2 = 0.0;      ///< mean square distance of points from the surface
   Vec3 origin{0.0};         ///< the place
   std::vector<FeatureSide> sides;
+  double tolerance = 0.06;  ///< h: RMS distance of points from the sides, beyond the noise
 };
 
 /// Where a vertex near a feature belongs.

@@ -26,6 +26,9 @@ constexpr double kLongestEdge = 1.8;   // that may arise where a small angle goe
 constexpr double kCollapseTurn = 0.7;  // 45 degrees: a collapse may tilt a face so much
 constexpr double kMinAngleAfterCollapse = 0.15;
 constexpr double kSmallAngle = 0.5;    // 30 degrees
+constexpr double kLowNoise = 0.05;     // in h
+constexpr double kFarMove = 0.25;      // of the radius of a fit: shorter moves may go anywhere
+constexpr double kNearPoints = 0.4;    // of the same: so near to a surface there are points
 constexpr double kFitMinCosine = 0.6;  // between the fitted surface and the mesh
 constexpr int kRoundsAfterCoarse = 5;  // that make the wanted size again
 constexpr double kFirstScale = 1.6;    // coarser triangles at first leave nothing of the pixel grid
@@ -290,8 +293,19 @@ class Remesher {
   [[nodiscard]] Vec3 projected(std::uint32_t v, const Vec3& p, const Vec3& normal, double radii) {
     SurfaceFit& fit = fits_[v];
     fit = fit_surface(surface_, p, normal, options_.fit.at(p, radii));
-    if (fit.is_found && glm::dot(fit.normal, normal) < kFitMinCosine) fit.is_found = false;
+    if (fit.is_found && (glm::dot(fit.normal, normal) < kFitMinCosine || is_in_air(fit)))
+      fit.is_found = false;
     return fit.is_found ? fit.foot : p;
+  }
+
+  /// Whether a fit leads far, to where there are no points: across an edge a quadric may rise over
+  /// them. Fits to noisy clouds hardly bend by chance, and those that widen reach over gaps.
+  [[nodiscard]] bool is_in_air(const SurfaceFit& fit) const {
+    const SurfaceWindow window = options_.fit.at(fit.foot);
+    const bool may_tell =
+        options_.fit.noise <= kLowNoise * options_.pixel_size && window.widest <= window.radius;
+    return may_tell && std::abs(fit.height) > kFarMove * window.radius &&
+           !surface_.has_point_within(fit.foot, kNearPoints * window.radius);
   }
 
   [[nodiscard]] std::vector<Vec3> surface_normals() const {

@@ -20,15 +20,23 @@ namespace rangezip {
 namespace {
 
 // Lengths are in h, angles as cosines.
-constexpr int kRings = 4;  // where clean surfaces are looked for
-constexpr std::size_t kMinCleanSurfaces = 6;
+constexpr int kRings = 4;              // where clean surfaces are looked for
 constexpr double kWeightRadius = 4.5;  // of surfaces in the mean of a side
 constexpr double kFaceCosine = 0.5;    // between a face and its side
 constexpr double kRefitNoise = 0.1;    // more tells hardly where a side is from a few points
+constexpr double kNarrowNoise = 0.05;  // more, and the nearest points do not tell what is clean
 constexpr int kLateRounds = 2;         // next to features that are there
 constexpr int kTidyRounds = 3;
 constexpr double kPixelPerEdge = 0.9;  // two triangles a pixel have edges of 1.1 of its side
 constexpr std::size_t kVerticesPerBlock = 256;
+
+/// What a place on a feature is to show.
+struct Demands {
+  std::size_t surfaces = 0;  ///< clean ones around
+  double tolerance = 0.0;    ///< Surroundings::tolerance
+};
+constexpr Demands kWideDemands{6, 0.06};
+constexpr Demands kNarrowDemands{3, 0.025};
 
 /// Where a vertex goes.
 struct Snap {
@@ -49,6 +57,10 @@ class Snapper {
     SnapReport report;
     const std::vector<Vec3> before = mesh_.positions;
     snap([&](std::uint32_t v) { return snap_of(v, clean_surfaces_around(v)); });
+    if (cloud_.noise() <= kNarrowNoise * options_.pixel_size) {
+      fit_narrow_surfaces();
+      snap([&](std::uint32_t v) { return snap_of(v, clean_surfaces_around(v)); });
+    }
     for (int round = 0; round < kLateRounds; ++round)
       snap([&](std::uint32_t v) { return late_snap_of(v); });
     report.split_edges = split_crossing_edges(mesh_, cloud_);
@@ -101,6 +113,28 @@ class Snapper {
                  });
   }
 
+  /// Surfaces of the nearest points where those farther away are no surface, between edges that are
+  /// close to each other. Of such there are few, and they know less: so proofs are to be better.
+  void fit_narrow_surfaces() {
+    narrow_surfaces_.resize(mesh_.positions.size());
+    demands_ = kNarrowDemands;
+    parallel_for(
+        mesh_.positions.size(), kVerticesPerBlock, [&](std::size_t begin, std::size_t end) {
+          for (auto v = static_cast<std::uint32_t>(begin); v < end; ++v) {
+            if (mesh_.surfaces[v].is_clean || mesh_.is_feature[v] != 0) continue;
+            narrow_surfaces_[v] =
+                cloud_.narrow_surface_at(at(v), vertex_normal(mesh_.table, mesh_.positions, v));
+          }
+        });
+  }
+
+  /// The wide one, or else the narrow one, if that is clean.
+  [[nodiscard]] const VertexSurface* clean_surface_at(std::uint32_t v) const {
+    if (mesh_.surfaces[v].is_clean) return &mesh_.surfaces[v];
+    const bool is_narrow = v < narrow_surfaces_.size() && narrow_surfaces_[v].is_clean;
+    return is_narrow ? &narrow_surfaces_[v] : nullptr;
+  }
+
   /// Moves what can be moved of what has not been, and flags the vertices that are on features now.
   template <class SnapOf>
   void snap(const SnapOf& snap_of_vertex) {
@@ -125,11 +159,12 @@ class Snapper {
   /// Where the sides of the surfaces around meet as they are, or fitted to the points.
   [[nodiscard]] std::optional<Snap> snap_of(std::uint32_t v,
                                             std::vector<FeatureSide> surfaces) const {
-    if (surfaces.size() < kMinCleanSurfaces) return std::nullopt;
+    if (surfaces.size() < demands_.surfaces) return std::nullopt;
     const Vec3& origin = at(v);
     Surroundings around =
         cloud_.surroundings(origin, sides_of(std::move(surfaces), cloud_.step_at(origin)));
     if (around.sides.empty()) return std::nullopt;
+    around.tolerance = demands_.tolerance;
     const double edge = mean_edge_at(v);
     FeaturePlace found = find_feature_place(around, edge, mesh_.surfaces[v].residual2);
     if (found.count == 0 && around.sides.size() > 1 &&
@@ -189,9 +224,10 @@ class Snapper {
         mesh_.table.for_each_neighbor(seen[begin], [&](std::uint32_t w) {
           if (std::find(seen.begin(), seen.end(), w) != seen.end()) return;
           seen.push_back(w);
-          if (!mesh_.surfaces[w].is_clean) return;
-          const double weight = weight_of(mesh_.surfaces[w].center - at(v), v);
-          if (weight > 0.0) surfaces.push_back(seen_from(at(v), mesh_.surfaces[w], weight));
+          const VertexSurface* surface = clean_surface_at(w);
+          if (surface == nullptr) return;
+          const double weight = weight_of(surface->center - at(v), v);
+          if (weight > 0.0) surfaces.push_back(seen_from(at(v), *surface, weight));
         });
       }
     }
@@ -248,6 +284,8 @@ class Snapper {
   }
 
   FeatureMesh mesh_;
+  std::vector<VertexSurface> narrow_surfaces_;  ///< one per vertex, or empty: not fitted
+  Demands demands_ = kWideDemands;
   FeatureCloud cloud_;
   const SnapOptions& options_;
 };

@@ -19,8 +19,18 @@ namespace rangezip {
 
 namespace {
 
-constexpr std::size_t kAreaSamples = 200'000;
+constexpr std::size_t kLeastAreaSamples = 200'000;
+constexpr std::size_t kMostAreaSamples = 4'000'000;
+constexpr double kAreaSamplesPerPixel = 8.0;
 constexpr double kVoteShare = 0.5;  ///< of an AddScan that has to vote first
+
+/// @param pixel_size 0: no pixels are known
+std::size_t area_sample_count(double area, double pixel_size) {
+  if (!(pixel_size > 0.0)) return kLeastAreaSamples;
+  const double wanted = kAreaSamplesPerPixel * area / (pixel_size * pixel_size);
+  if (!(wanted < static_cast<double>(kMostAreaSamples))) return kMostAreaSamples;
+  return std::max(kLeastAreaSamples, static_cast<std::size_t>(wanted));
+}
 
 /// Unit vector along the line of sight, toward the scanner; of the middle ray for a central
 /// projection.
@@ -84,13 +94,14 @@ class CommandRun {
   void operator()(const DropUnsupported& command) {
     if (result_.mesh.empty()) return;
     const double h = command.pixel_size > 0.0 ? command.pixel_size : mean_edge_length(result_.mesh);
-    result_.report.erased_faces = drop_unsupported_faces(result_.mesh, evidence_points(scene_), h);
+    result_.report.erased_faces =
+        drop_unsupported_faces(result_.mesh, evidence_points(scene_, h), h);
   }
 
   void operator()(const FinishMesh& command) {
     FinishOptions options = command.options;
     if (options.pixel_size == 0.0) options.pixel_size = mean_edge_length(result_.mesh);
-    const std::vector<Vec3> points = evidence_points(scene_);
+    const std::vector<Vec3> points = evidence_points(scene_, options.pixel_size);
     SeenPoints seen{.points = points};
     if (command.vote) seen.votes = votes_.votes(rasterizer_, scene_, *command.vote, progress_);
     FinishResult finished = finish(std::move(result_.mesh), seen, options, progress_);
@@ -135,10 +146,11 @@ CommandResult run_command(const Command& command, const Scene& scene, TriangleMe
   return result;
 }
 
-std::vector<Vec3> evidence_points(const Scene& scene) {
+std::vector<Vec3> evidence_points(const Scene& scene, double pixel_size) {
   std::vector<Vec3> points = scene.points();
   if (scene.triangle_count() > 0) {
-    const std::vector<Vec3> on_triangles = area_samples(scene, kAreaSamples);
+    const std::vector<Vec3> on_triangles =
+        area_samples(scene, area_sample_count(triangle_area(scene), pixel_size));
     points.insert(points.end(), on_triangles.begin(), on_triangles.end());
   }
   return points;

@@ -1,5 +1,6 @@
 #include "core/finish/remesh.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -97,6 +98,34 @@ TEST_CASE("remesh meets a number of triangles") {
   const auto got = static_cast<double>(rough.mesh.triangles.size());
   REQUIRE(got == Approx(static_cast<double>(wanted)).epsilon(0.05));
   REQUIRE(report_mesh(rough.mesh).euler == 2);
+}
+
+TEST_CASE("remesh raises no vertex farther over the edges of a cube") {
+  const std::uint64_t seed = GENERATE(range(1U, 21U));
+  CAPTURE(seed);
+  std::mt19937_64 engine(seed);
+  constexpr int kN = 20;
+  constexpr double kPixel = 2.0 / kN;
+  TriangleMesh mesh = testing::cube(kN);
+  for (Vec3& p : mesh.positions) {  // edges as scans cut them off, with vertices in the air
+    const Vec3 core = glm::clamp(p, Vec3(0.6 * kPixel - 1.0), Vec3(1.0 - 0.6 * kPixel));
+    const double radius = testing::uniform(engine, 0.0, 1.0) < 0.1 ? 1.4 : 0.6;
+    p = core + radius * kPixel * glm::normalize(p - core) +
+        testing::uniform(engine, 0.0, 0.3 * kPixel) * testing::direction(engine);
+  }
+  std::vector<Vec3> points(static_cast<std::size_t>(24.0 * std::pow(2.2 / kPixel, 2.0)));
+  for (Vec3& p : points) {
+    p = {testing::uniform(engine, -1, 1), testing::uniform(engine, -1, 1),
+         testing::uniform(engine, -1, 1)};
+    p[static_cast<int>(engine() % 3)] = engine() % 2 == 0 ? 1.0 : -1.0;
+  }
+  const PointGrid cloud(points, Box{Vec3(-1.5), Vec3(1.5)}, 0.7 * kPixel);
+  remesh(mesh, cloud, cloud, {.pixel_size = kPixel, .fit = {{1.3 * kPixel, kPixel}, 0.0, {}}});
+  remove_unused_vertices(mesh);
+  for (const Vec3& p : mesh.positions) {
+    const Vec3 q = glm::abs(p);
+    REQUIRE(std::max({q.x, q.y, q.z}) < 1.0 + 0.6 * kPixel);
+  }
 }
 
 TEST_CASE("remesh keeps the boundary and does nothing to the topology") {

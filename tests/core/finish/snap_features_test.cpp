@@ -1,6 +1,7 @@
 #include "core/finish/snap_features.h"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -214,6 +215,69 @@ TEST_CASE("no vertex leaves the facets of a drum, and its rims get sharp") {
   for (const Vec3& p : mesh.positions)
     highest = std::max(highest, height_over_drum(turned_back(p)));
   REQUIRE(highest < 0.25 * h);  // two facets are taken for one side where points are few
+}
+
+/// A rib along the y-axis on a floor, so many pixels wide and high; its edges are so far from the
+/// middle of its profile, along it.
+constexpr double kRib = 2.5;
+constexpr std::array kEdgesOfRib{-1.5 * kRib, -0.5 * kRib, 0.5 * kRib, 1.5 * kRib};
+constexpr double kEndOfProfile = 4.0 * kRib;
+constexpr int kRibLength = 30;
+Vec3 on_rib(double along, double y) {
+  const double from_edge = std::abs(along) - 0.5 * kRib;
+  const double x = 0.5 * kRib + std::min(from_edge, std::max(0.0, from_edge - kRib));
+  return turned({std::copysign(x, along), y, kRib - std::clamp(from_edge, 0.0, kRib)});
+}
+double distance_to_rib(const Vec3& p) {
+  const Vec3 q = turned_back(p);
+  const double beyond = std::abs(q.x) - 0.5 * kRib;
+  const double to_top = std::hypot(std::max(0.0, beyond), q.z - kRib);
+  const double to_wall = std::hypot(beyond, q.z - std::clamp(q.z, 0.0, kRib));
+  const double to_floor = std::hypot(std::min(0.0, beyond), q.z);
+  return std::min({to_top, to_wall, to_floor});
+}
+
+/// Rows of vertices along the profile, three on each side of the rib and none on an edge: so all
+/// edges are cut off.
+TriangleMesh scanned_rib() {
+  constexpr int kColumns = 25;
+  constexpr double kStep = kRib / 3.0;
+  TriangleMesh mesh;
+  for (int row = 0; row * kStep <= kRibLength; ++row) {
+    for (int column = 0; column < kColumns; ++column)
+      mesh.positions.push_back(on_rib((column - kColumns / 2) * kStep, row * kStep));
+  }
+  for (std::uint32_t v = 0; v + kColumns < mesh.positions.size(); ++v) {
+    if (v % kColumns + 1 == kColumns) continue;
+    mesh.triangles.push_back({v, v + 1, v + kColumns});
+    mesh.triangles.push_back({v + 1, v + kColumns + 1, v + kColumns});
+  }
+  return mesh;
+}
+
+TEST_CASE("edges two and a half pixels apart get sharp") {
+  const std::uint64_t seed = GENERATE(1U, 2U, 3U);
+  CAPTURE(seed);
+  std::mt19937_64 engine(seed);
+  std::vector<Vec3> points(static_cast<std::size_t>(2.0 * kEndOfProfile * kRibLength * 2.2 * 2.2));
+  for (Vec3& p : points)
+    p = on_rib(uniform(engine, -kEndOfProfile, kEndOfProfile), uniform(engine, 0.0, kRibLength));
+  const PointGrid cloud(points, Box{Vec3(-40.0), Vec3(40.0)}, 0.7);
+  TriangleMesh mesh = scanned_rib();
+  snap_features(mesh, cloud, {1.0, {{1.3, 1.0}, 0.0, {}}});
+  remove_unused_vertices(mesh);
+  REQUIRE(report_mesh(mesh).is_manifold());
+  for (const double edge : kEdgesOfRib) {
+    const auto is_on_edge = [&](const Vec3& p) {
+      const Vec3 to_edge = turned_back(p - on_rib(edge, 0.0));
+      return std::hypot(to_edge.x, to_edge.z) < 0.02;
+    };
+    CAPTURE(edge);
+    REQUIRE(std::count_if(mesh.positions.begin(), mesh.positions.end(), is_on_edge) >
+            4 * kRibLength / 5);
+  }
+  for (const Vec3& p : mesh.positions)
+    REQUIRE(distance_to_rib(p) < 0.3);
 }
 
 TEST_CASE("a sphere has no features, whatever the noise") {
