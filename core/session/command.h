@@ -59,7 +59,8 @@ struct DropUnsupported {
   double pixel_size = 0.0;  ///< h, model units; 0: the mesh's mean edge length
 };
 
-/// The finish; projects onto the evidence_points() of the scene.
+/// The finish; projects onto the evidence_points() of the scene, but for layers that polygons have
+/// behind the mesh (core/finish/hidden_layers.h).
 struct FinishMesh {
   FinishOptions options;            ///< pixel_size 0: the mesh's mean edge length
   std::optional<VoteOptions> vote;  ///< tells which faces the points contradict; absent: none

@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <span>
 #include <variant>
 
 #include "core/base/error.h"
 #include "core/base/progress_part.h"
+#include "core/finish/hidden_layers.h"
 #include "core/finish/hole_filling.h"
 #include "core/finish/laplacian_smooth.h"
 #include "core/finish/unsupported_faces.h"
 #include "core/mesh/handles.h"
 #include "core/plan/spacing.h"
+#include "core/plan/unseen_samples.h"
 #include "core/session/erase_region.h"
 #include "core/view/view.h"
 
@@ -101,7 +104,7 @@ class CommandRun {
   void operator()(const FinishMesh& command) {
     FinishOptions options = command.options;
     if (options.pixel_size == 0.0) options.pixel_size = mean_edge_length(result_.mesh);
-    const std::vector<Vec3> points = evidence_points(scene_, options.pixel_size);
+    const std::vector<Vec3> points = finish_points(options.pixel_size);
     SeenPoints seen{.points = points};
     if (command.vote) seen.votes = votes_.votes(rasterizer_, scene_, *command.vote, progress_);
     FinishResult finished = finish(std::move(result_.mesh), seen, options, progress_);
@@ -114,6 +117,19 @@ class CommandRun {
   }
 
  private:
+  /// evidence_points() without the layers that polygons have behind the mesh.
+  [[nodiscard]] std::vector<Vec3> finish_points(double pixel_size) const {
+    std::vector<Vec3> points = evidence_points(scene_, pixel_size);
+    if (scene_.triangle_count() == 0) return points;
+    const std::size_t scanned = scene_.point_count();
+    const std::vector<std::uint8_t> on_triangles = unseen_samples(
+        rasterizer_, scene_, std::span(points).subspan(scanned), pixel_size, progress_);
+    std::vector<std::uint8_t> is_unseen(scanned, 0);
+    is_unseen.insert(is_unseen.end(), on_triangles.begin(), on_triangles.end());
+    drop_hidden_layers(points, is_unseen, result_.mesh, pixel_size);
+    return points;
+  }
+
   const Scene& scene_;
   VoteCache& votes_;
   Rasterizer& rasterizer_;

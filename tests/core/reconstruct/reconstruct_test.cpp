@@ -223,6 +223,19 @@ TEST_CASE("sparse points of a wall as thin as a pixel are meshed, all of them", 
   CHECK(result.report.coverage.share > 0.97);
 }
 
+TEST_CASE("what polygons have inside leaves no trace on their surface", "[reconstruct]") {
+  constexpr double kPixel = 0.05;
+  Scene scene = scene_of(shapes::sphere());
+  scene.add(std::make_shared<const TriangleSoup>(shapes::sphere(1.0 - 0.7 * kPixel)));
+  ReconstructOptions options;
+  options.pixel_size = kPixel;
+  const ReconstructResult result = run(scene, options);
+  check_clean(result);
+  CHECK(result.report.mesh.components == 1);
+  CHECK(result.report.mesh.euler == 2);
+  CHECK(distance_from_unit_sphere(result.mesh) < 0.1 * kPixel);
+}
+
 TEST_CASE("polygons are scanned as they are: a washer stays closed, of genus 1 and exact",
           "[reconstruct]") {
   const ReconstructResult result =

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/base/geometry.h"
+#include "core/mesh/triangle_mesh.h"
+
+namespace rangezip {
+
+/// Drops samples that nothing shows and that lie behind the mesh, from 0.15 to 4 h, where it
+/// has samples that are seen: the inside of walls, parts within parts. They are no evidence for
+/// what the mesh is to be, but too near to be told from it by those who fit surfaces. Others stay:
+/// so does the ground of a groove under faces in the air.
+/// @param samples those that stay keep their order
+/// @param is_unseen one per sample
+/// @param pixel_size h, model units
+/// Cost: O(log n) a sample that is not seen
+void drop_hidden_layers(std::vector<Vec3>& samples, const std::vector<std::uint8_t>& is_unseen,
+                        const TriangleMesh& mesh, double pixel_size);
+
+}  // namespace rangezip

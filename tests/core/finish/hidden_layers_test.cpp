@@ -1,0 +1,71 @@
+#include "core/finish/hidden_layers.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cstddef>
+#include <random>
+
+#include "tests/core/finish/shapes.h"
+
+namespace rangezip {
+namespace {
+
+constexpr double kH = 0.1;
+
+/// Layers of a sphere: points of so many radii each, and whether they are seen.
+struct Layers {
+  std::vector<Vec3> samples;
+  std::vector<std::uint8_t> is_unseen;
+
+  void add(double radius, bool is_seen, double lowest = -1.0) {
+    std::mt19937_64 engine(samples.size() + 1);
+    for (Vec3 p : testing::sphere_points(kH / 3.0, 0.0, engine)) {
+      p = radius * glm::normalize(p);
+      if (p.z < lowest * radius) continue;
+      samples.push_back(p);
+      is_unseen.push_back(is_seen ? 0 : 1);
+    }
+  }
+};
+
+TEST_CASE("layers behind the mesh that nothing shows are dropped, and nothing else") {
+  const TriangleMesh mesh = testing::sphere(24);
+  Layers layers;
+  layers.add(1.0, true);               // the surface
+  layers.add(1.0 + 1.5 * kH, false);   // before it
+  layers.add(1.0 - 0.05 * kH, false);  // as good as on it
+  layers.add(1.0 - 2.0 * kH, true);    // behind it, but seen
+  std::vector<Vec3> expected = layers.samples;
+  for (const double behind : {0.4, 1.0, 3.0})
+    layers.add(1.0 - behind * kH, false);
+  REQUIRE(layers.samples.size() > expected.size());
+  drop_hidden_layers(layers.samples, layers.is_unseen, mesh, kH);
+  CHECK(layers.samples == expected);
+}
+
+TEST_CASE("what lies behind faces in the air stays") {
+  const TriangleMesh mesh = testing::sphere(24);
+  Layers layers;
+  layers.add(1.0, true, 0.0);  // half of the mesh has no samples
+  const std::size_t surface = layers.samples.size();
+  layers.add(1.0 - kH, false);
+  const auto is_below = [](const Vec3& p) { return p.z < -kH; };
+  const auto below = std::count_if(layers.samples.begin(), layers.samples.end(), is_below);
+  drop_hidden_layers(layers.samples, layers.is_unseen, mesh, kH);
+  CHECK(std::count_if(layers.samples.begin(), layers.samples.end(), is_below) == below);
+  CHECK(std::none_of(layers.samples.begin() + static_cast<std::ptrdiff_t>(surface),
+                     layers.samples.end(), [](const Vec3& p) { return p.z > kH; }));
+}
+
+TEST_CASE("where all is seen, or there is no mesh, nothing is dropped") {
+  Layers layers;
+  layers.add(0.9, true);
+  std::vector<Vec3> samples = layers.samples;
+  drop_hidden_layers(samples, layers.is_unseen, testing::sphere(8), kH);
+  CHECK(samples == layers.samples);
+  drop_hidden_layers(samples, std::vector<std::uint8_t>(samples.size(), 1), {}, kH);
+  CHECK(samples == layers.samples);
+}
+
+}  // namespace
+}  // namespace rangezip
