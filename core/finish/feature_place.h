@@ -12,6 +12,9 @@
 
 namespace rangezip {
 
+/// In h: so near points lie to the sides that they prove, root mean square beyond the noise.
+inline constexpr double kProofTolerance = 0.06;
+
 /// A place and the sides of features around it, relative to it. At most five are looked at.
 struct Surroundings {
   const PointGrid& cloud;
@@ -20,7 +23,7 @@ struct Surroundings {
   double noise2 = 0.0;      ///< mean square distance of points from the surface
   Vec3 origin{0.0};         ///< the place
   std::vector<FeatureSide> sides;
-  double tolerance = 0.06;  ///< h: RMS distance of points from the sides, beyond the noise
+  double tolerance = kProofTolerance;  ///< the same, where it is to be another, h
 };
 
 /// Where a vertex near a feature belongs.

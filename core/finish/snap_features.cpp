@@ -35,7 +35,7 @@ struct Demands {
   std::size_t surfaces = 0;  ///< clean ones around
   double tolerance = 0.0;    ///< Surroundings::tolerance
 };
-constexpr Demands kWideDemands{6, 0.06};
+constexpr Demands kWideDemands{6, kProofTolerance};
 constexpr Demands kNarrowDemands{3, 0.025};
 
 /// Where a vertex goes.
