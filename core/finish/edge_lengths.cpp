@@ -30,10 +30,6 @@ double inverse_cube_root(double x) {
   return std::ldexp(root, -third);
 }
 
-double frobenius(const Mat3& m) {
-  return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
-}
-
 double bounded(double length) {
   return std::clamp(length, 1.0 / kLargestRatio, kLargestRatio);
 }
@@ -78,7 +74,7 @@ std::vector<double> relative_edge_lengths(const CornerTable& table,
   std::vector<double> lengths(positions.size(), 0.0);
   parallel_for(fits.size(), kPerBlock, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
-      const double bending = fits[v].is_found ? frobenius(fits[v].bending) * length : 0.0;
+      const double bending = fits[v].is_found ? frobenius_norm(fits[v].bending) * length : 0.0;
       lengths[v] = inverse_cube_root(std::max(bending, kLeastBending));
     }
   });

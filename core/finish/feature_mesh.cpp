@@ -22,14 +22,6 @@ constexpr int kFitTerms = 6;
 constexpr double kMinCosine = 0.8;  // between the surface and the mesh
 constexpr double kStep = 0.3;       // beyond the noise
 
-/// Frobenius norm.
-double size_of(const Mat3& matrix) {
-  double square = 0.0;
-  for (int column = 0; column < 3; ++column)
-    square += glm::dot(matrix[column], matrix[column]);
-  return std::sqrt(square);
-}
-
 }  // namespace
 
 FeatureSide seen_from(const Vec3& place, const VertexSurface& surface, double weight) {
@@ -73,7 +65,7 @@ VertexSurface FeatureCloud::narrow_surface_at(const Vec3& place, const Vec3& nor
   VertexSurface surface =
       surface_of(measure_surface(cloud_, place, normal, {kNarrowRadius * h, kFitHeight * h, 0.0}),
                  place, normal);
-  surface.is_clean = surface.is_clean && size_of(surface.bending) * h < kNarrowBending;
+  surface.is_clean = surface.is_clean && frobenius_norm(surface.bending) * h < kNarrowBending;
   return surface;
 }
 

@@ -23,7 +23,7 @@ struct Surroundings {
   double noise2 = 0.0;      ///< mean square distance of points from the surface
   Vec3 origin{0.0};         ///< the place
   std::vector<FeatureSide> sides;
-  double tolerance = kProofTolerance;  ///< the same, where it is to be another, h
+  double tolerance = kProofTolerance;  ///< h, in its place
 };
 
 /// Where a vertex near a feature belongs.

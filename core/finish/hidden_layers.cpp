@@ -27,7 +27,10 @@ void drop_hidden_layers(std::vector<Vec3>& samples, const std::vector<std::uint8
   for (std::size_t i = 0; i < samples.size(); ++i) {
     if (is_unseen[i] == 0) seen.push_back(samples[i]);
   }
-  const PointGrid evidence(seen, bounds_of(mesh), kCell * pixel_size);
+  Box region = bounds_of(mesh);  // which may end a little inside of a flat face
+  region.lower -= Vec3(pixel_size);
+  region.upper += Vec3(pixel_size);
+  const PointGrid evidence(seen, region, kCell * pixel_size);
   const FaceGrid faces(mesh, pixel_size);
   const auto is_hidden = [&](const Vec3& sample) {
     const std::uint32_t face = faces.nearest_face(sample, kReach * pixel_size);

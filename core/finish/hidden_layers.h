@@ -15,7 +15,9 @@ namespace rangezip {
 /// @param samples those that stay keep their order
 /// @param is_unseen one per sample
 /// @param pixel_size h, model units
-/// Cost: O(log n) a sample that is not seen
+/// @pre as many flags as samples, and pixel_size is positive
+/// Cost: linear in the samples and faces; those that are not seen look for faces up to 4 h around,
+/// in parallel. Nothing where all are seen.
 void drop_hidden_layers(std::vector<Vec3>& samples, const std::vector<std::uint8_t>& is_unseen,
                         const TriangleMesh& mesh, double pixel_size);
 

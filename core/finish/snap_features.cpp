@@ -59,6 +59,7 @@ class Snapper {
     snap([&](std::uint32_t v) { return snap_of(v, clean_surfaces_around(v)); });
     if (cloud_.noise() <= kNarrowNoise * options_.pixel_size) {
       fit_narrow_surfaces();
+      progress.check_stop();
       snap([&](std::uint32_t v) { return snap_of(v, clean_surfaces_around(v)); });
     }
     for (int round = 0; round < kLateRounds; ++round)
@@ -114,7 +115,8 @@ class Snapper {
   }
 
   /// Surfaces of the nearest points where those farther away are no surface, between edges that are
-  /// close to each other. Of such there are few, and they know less: so proofs are to be better.
+  /// close to each other. Of such there are few, and they know less: so from here on fewer are
+  /// asked for, and proofs are to be better.
   void fit_narrow_surfaces() {
     narrow_surfaces_.resize(mesh_.positions.size());
     demands_ = kNarrowDemands;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 
 #include "core/base/geometry.h"
@@ -27,6 +28,11 @@ struct SurfaceFit {
   Mat3 bending{0.0};      ///< e^T bending e: how the surface bends away along a tangent vector e,
                           ///< to second order twice the height gained over e
 };
+
+/// How much a surface bends, whichever way: the root of the sum of the squared entries.
+[[nodiscard]] inline double frobenius_norm(const Mat3& m) {
+  return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]));
+}
 
 /// Weighted least squares of a quadric z = z(u, v) over the plane through `place` across `normal`
 /// [Cazals, Pouget 2005]; weights fall to 0 at the radius. With few points a plane is fitted, with

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <variant>
@@ -120,7 +121,8 @@ class CommandRun {
   /// evidence_points() without the layers that polygons have behind the mesh.
   [[nodiscard]] std::vector<Vec3> finish_points(double pixel_size) const {
     std::vector<Vec3> points = evidence_points(scene_, pixel_size);
-    if (scene_.triangle_count() == 0) return points;
+    const bool is_finished = !result_.mesh.empty() && pixel_size > 0.0 && std::isfinite(pixel_size);
+    if (scene_.triangle_count() == 0 || !is_finished) return points;
     const std::size_t scanned = scene_.point_count();
     const std::vector<std::uint8_t> on_triangles = unseen_samples(
         rasterizer_, scene_, std::span(points).subspan(scanned), pixel_size, progress_);

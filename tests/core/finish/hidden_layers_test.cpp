@@ -57,6 +57,21 @@ TEST_CASE("what lies behind faces in the air stays") {
                      layers.samples.end(), [](const Vec3& p) { return p.z > kH; }));
 }
 
+TEST_CASE("flat faces support the mesh that ends just inside of them") {
+  TriangleMesh mesh = testing::cube(20);
+  for (Vec3& p : mesh.positions)
+    p *= 1.0 - 1e-9;
+  Layers layers;
+  for (const double half_side : {1.0, 1.0 - 0.5 * kH}) {
+    for (const Vec3& p : testing::cube(60).positions) {
+      layers.samples.push_back(half_side * p);
+      layers.is_unseen.push_back(half_side < 1.0 ? 1 : 0);
+    }
+  }
+  drop_hidden_layers(layers.samples, layers.is_unseen, mesh, kH);
+  CHECK(layers.samples == testing::cube(60).positions);
+}
+
 TEST_CASE("where all is seen, or there is no mesh, nothing is dropped") {
   Layers layers;
   layers.add(0.9, true);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <initializer_list>
 #include <limits>
+#include <memory>
 
 #include "core/base/error.h"
 #include "core/plan/spacing.h"
