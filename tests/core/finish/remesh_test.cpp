@@ -110,8 +110,8 @@ TEST_CASE("remesh raises no vertex farther over the edges of a cube") {
   for (Vec3& p : mesh.positions) {  // edges as scans cut them off, with vertices in the air
     const Vec3 core = glm::clamp(p, Vec3(0.6 * kPixel - 1.0), Vec3(1.0 - 0.6 * kPixel));
     const double radius = testing::uniform(engine, 0.0, 1.0) < 0.1 ? 1.4 : 0.6;
-    p = core + radius * kPixel * glm::normalize(p - core) +
-        testing::uniform(engine, 0.0, 0.3 * kPixel) * testing::direction(engine);
+    const double shift = testing::uniform(engine, 0.0, 0.3 * kPixel);
+    p = core + radius * kPixel * glm::normalize(p - core) + shift * testing::direction(engine);
   }
   std::vector<Vec3> points(static_cast<std::size_t>(24.0 * std::pow(2.2 / kPixel, 2.0)));
   for (Vec3& p : points) {
@@ -124,7 +124,7 @@ TEST_CASE("remesh raises no vertex farther over the edges of a cube") {
   remove_unused_vertices(mesh);
   for (const Vec3& p : mesh.positions) {
     const Vec3 q = glm::abs(p);
-    REQUIRE(std::max({q.x, q.y, q.z}) < 1.0 + 0.6 * kPixel);
+    REQUIRE(std::max({q.x, q.y, q.z}) < 1.0 + 0.7 * kPixel);
   }
 }
 

@@ -260,8 +260,10 @@ TEST_CASE("edges two and a half pixels apart get sharp") {
   CAPTURE(seed);
   std::mt19937_64 engine(seed);
   std::vector<Vec3> points(static_cast<std::size_t>(2.0 * kEndOfProfile * kRibLength * 2.2 * 2.2));
-  for (Vec3& p : points)
-    p = on_rib(uniform(engine, -kEndOfProfile, kEndOfProfile), uniform(engine, 0.0, kRibLength));
+  for (Vec3& p : points) {
+    const double along = uniform(engine, -kEndOfProfile, kEndOfProfile);
+    p = on_rib(along, uniform(engine, 0.0, kRibLength));
+  }
   const PointGrid cloud(points, Box{Vec3(-40.0), Vec3(40.0)}, 0.7);
   TriangleMesh mesh = scanned_rib();
   snap_features(mesh, cloud, {1.0, {{1.3, 1.0}, 0.0, {}}});
