@@ -13,7 +13,7 @@ namespace {
 
 // In h.
 constexpr double kReach = 4.0;
-constexpr double kBehind = 0.15;
+constexpr double kBehind = 0.3;
 constexpr double kSupport = 0.75;  // of a place of the mesh: so near samples are seen
 constexpr double kCell = 0.5;
 constexpr std::size_t kPerBlock = 1024;

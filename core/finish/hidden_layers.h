@@ -8,7 +8,7 @@
 
 namespace rangezip {
 
-/// Drops samples that nothing shows and that lie behind the mesh, from 0.15 to 4 h, where it
+/// Drops samples that nothing shows and that lie behind the mesh, from 0.3 to 4 h, where it
 /// has samples that are seen: the inside of walls, parts within parts. They are no evidence for
 /// what the mesh is to be, but too near to be told from it by those who fit surfaces. Others stay:
 /// so does the ground of a groove under faces in the air.
