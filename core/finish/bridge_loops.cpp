@@ -32,6 +32,10 @@ constexpr double kMinCosineAtRim = -0.995;
 /// the other loop.
 constexpr std::size_t kLongRim = 40;
 constexpr double kAllAround = 0.9;
+/// Cosine between the faces of two sheets that meet in the sharp edge around a hole; and of the
+/// places around it, how many show that.
+constexpr double kSharp = 0.5;
+constexpr double kSharpShare = 0.8;
 
 class Bridger {
  public:
@@ -53,11 +57,15 @@ class Bridger {
   /// What bridge_loops() does.
   std::size_t join_loops() {
     std::size_t bridges = 0;
-    const std::vector<LoopNeighbors> neighbors = find_neighbors();
+    const std::vector<LoopNeighbors> neighbors =
+        find_neighbors([&](std::uint32_t a, std::uint32_t b) {
+          return component_of(a) != component_of(b) || (is_long(a) && is_long(b));
+        });
     for (const std::span<const LoopNeighbors> pairs : loops_side_by_side(neighbors, loops_)) {
-      if (!are_free(pairs.front())) continue;
+      if (!are_unbridged(pairs.front())) continue;
       between_.clear();
       may_be_rim_ = are_beside_all_around(pairs);
+      if (are_of_one(pairs.front()) && !(may_be_rim_ && is_sharp(pairs))) continue;
       if (!is_crack(pairs) || !bridge_one(pairs)) continue;
       note_joined(pairs.front());
       ++bridges;
@@ -67,14 +75,18 @@ class Bridger {
 
   /// What bridge_runs() does: all runs of two loops at once, which are one component afterwards.
   std::size_t join_runs() {
+    if (joined_.size() < 2) return 0;
     std::size_t bridges = 0;
     const std::vector<std::vector<LoopNeighbors>> runs =
-        parts_side_by_side(find_neighbors(), loops_);
+        parts_side_by_side(find_neighbors([&](std::uint32_t a, std::uint32_t b) {
+                             return component_of(a) != component_of(b);
+                           }),
+                           loops_);
     for (std::size_t begin = 0, end = 0; begin < runs.size(); begin = end) {
       const LoopNeighbors& first = runs[begin].front();
       while (end < runs.size() && are_same_loops(runs[end].front(), first))
         ++end;
-      if (!are_free(first)) continue;
+      if (!are_unbridged(first) || are_of_one(first)) continue;
       between_.clear();
       for (std::size_t i = begin; i < end; ++i)
         bridge_ends(runs[i]);
@@ -86,18 +98,19 @@ class Bridger {
   }
 
  private:
-  [[nodiscard]] std::vector<LoopNeighbors> find_neighbors() const {
-    if (joined_.size() < 2) return {};
-    return loop_neighbors(
-        loops_, table_, mesh_.positions, kMaxGap * h_,
-        [&](std::uint32_t a, std::uint32_t b) { return component_of(a) != component_of(b); });
+  /// @param are_wanted as for loop_neighbors()
+  template <class AreWanted>
+  [[nodiscard]] std::vector<LoopNeighbors> find_neighbors(const AreWanted& are_wanted) const {
+    return loop_neighbors(loops_, table_, mesh_.positions, kMaxGap * h_, are_wanted);
   }
   static bool are_same_loops(const LoopNeighbors& p, const LoopNeighbors& q) {
     return p.loop_a == q.loop_a && p.loop_b == q.loop_b;
   }
-  [[nodiscard]] bool are_free(const LoopNeighbors& pair) const {
-    return is_bridged_[pair.loop_a] == 0 && is_bridged_[pair.loop_b] == 0 &&
-           component_of(pair.loop_a) != component_of(pair.loop_b);
+  [[nodiscard]] bool are_unbridged(const LoopNeighbors& pair) const {
+    return is_bridged_[pair.loop_a] == 0 && is_bridged_[pair.loop_b] == 0;
+  }
+  [[nodiscard]] bool are_of_one(const LoopNeighbors& pair) const {
+    return component_of(pair.loop_a) == component_of(pair.loop_b);
   }
   void note_joined(const LoopNeighbors& pair) {
     is_bridged_[pair.loop_a] = is_bridged_[pair.loop_b] = 1;
@@ -179,13 +192,37 @@ class Bridger {
     return 2 * shown >= wide;
   }
 
+  [[nodiscard]] bool is_long(std::uint32_t loop) const {
+    return loops_[loop].corners.size() >= kLongRim;
+  }
+
   /// Whether two loops may be the sides of a rim: long ones, for around a hole of some pixels the
   /// scraps of a scene face each other, too.
   [[nodiscard]] bool are_beside_all_around(std::span<const LoopNeighbors> pairs) const {
-    const std::size_t count_a = loops_[pairs.front().loop_a].corners.size();
-    const std::size_t count_b = loops_[pairs.front().loop_b].corners.size();
-    return std::min(count_a, count_b) >= kLongRim &&
-           static_cast<double>(pairs.size()) >= kAllAround * static_cast<double>(count_a + count_b);
+    const auto& [a, b] = std::pair{pairs.front().loop_a, pairs.front().loop_b};
+    const std::size_t count = loops_[a].corners.size() + loops_[b].corners.size();
+    return is_long(a) && is_long(b) &&
+           static_cast<double>(pairs.size()) >= kAllAround * static_cast<double>(count);
+  }
+
+  /// Whether two loops are the sides of a sharp edge all around: the faces beside them look in
+  /// different directions, and each lies behind the other.
+  [[nodiscard]] bool is_sharp(std::span<const LoopNeighbors> pairs) const {
+    const auto sharp = std::count_if(pairs.begin(), pairs.end(), [&](const LoopNeighbors& pair) {
+      const std::uint32_t a = loops_[pair.loop_a].corners[pair.place_a];
+      const std::uint32_t b = loops_[pair.loop_b].corners[pair.place_b];
+      return glm::dot(normal_of(table_.triangle(a / 3)), normal_of(table_.triangle(b / 3))) <
+                 kSharp &&
+             lies_behind(a, b) && lies_behind(b, a);
+    });
+    return static_cast<double>(sharp) >= kSharpShare * static_cast<double>(pairs.size());
+  }
+
+  /// Whether the face of one border edge, with its corner across, lies behind that of another.
+  [[nodiscard]] bool lies_behind(std::uint32_t edge, std::uint32_t other) const {
+    const Triangle& face = table_.triangle(other / 3);
+    const Vec3 to = mesh_.positions[table_.apex(edge)] - mesh_.positions[table_.head(other)];
+    return glm::dot(to, normal_of(face)) < 0.0;
   }
 
   /// Whether a face with this normal may follow on the face of a border edge: what turns back on it

@@ -127,6 +127,26 @@ struct FillInside {
   Inside shown = Inside::unknown;
 };
 
+/// The narrow fill of a slit, if no side of it is longer than the diagonal between the sides of a
+/// crack.
+HoleFill fill_of_crack(const std::vector<Vec3>& positions, const CornerTable& table,
+                       const BoundaryLoop& loop, const LoopGeometry& geometry,
+                       const CloudEvidence& evidence, const HoleChoiceOptions& options) {
+  if (roundness_of(geometry) >= kSlit) return {};
+  HoleFill fill = fill_loop(positions, table, loop, FillShape::narrow, 0.0, evidence, options.memo);
+  const std::size_t n = geometry.points.size();
+  double along = 0.0;
+  for (std::size_t i = 0; i < n; ++i)
+    along = std::max(along, glm::length(geometry.points[(i + 1) % n] - geometry.points[i]));
+  const double widest = std::hypot(along, options.narrow_width * options.pixel_size);
+  for (const Triangle& t : fill.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (glm::length(positions[t[(i + 1) % 3]] - positions[t[i]]) > widest) return {};
+    }
+  }
+  return fill;
+}
+
 double distance_to(const std::vector<Vec3>& points, const Vec3& p) {
   double least = std::numeric_limits<double>::infinity();
   for (const Vec3& q : points)
@@ -232,6 +252,9 @@ std::optional<FillChoice> choose_fill(const std::vector<Vec3>& positions, const 
   const auto has_gap = [&] { return has_left_out(geometry, positions, fill, cloud, h); };
   if (is_rim(geometry, is_zipped, h) && (!options.is_sampled || has_gap())) return std::nullopt;
   if (inside.width < options.narrow_width * h) return FillChoice{.shape = FillShape::flat};
+  if (HoleFill crack = fill_of_crack(positions, table, loop, geometry, evidence, options);
+      !crack.triangles.empty())
+    return FillChoice{.shape = FillShape::narrow, .fill = std::move(crack)};
   if (!is_zipped) return FillChoice{.shape = FillShape::zipped};
   const bool is_to_close = geometry.perimeter <= options.max_hole_perimeter * h;
   if (!is_to_close && options.is_sampled && has_gap()) return std::nullopt;

@@ -43,7 +43,9 @@ struct FillChoice {
 ///   no scan has reached;
 /// - a round rim (longer than 20 h) where the surface ends without leading into the hole, as at the
 ///   end of a tube, stays unless points are all over the fill;
-/// - a crack, nowhere wider than narrow_width, is closed whatever its length;
+/// - a crack, nowhere wider than narrow_width, is closed whatever its length; so is one whose sides
+///   are so ragged that only the fill with the shortest edges is as narrow: where sides cross, the
+///   least sharp fill of a crack around a corner is a sail across it;
 /// - others are first zipped where their sides are close, since cracks often open into a border;
 /// - once zipped, one stays that is longer than max_hole_perimeter and has a disc so wide and
 ///   without points that the surface was not sampled there: a hole, or what no scan saw;

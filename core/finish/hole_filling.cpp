@@ -63,10 +63,11 @@ HoleFill fill_loop(const std::vector<Vec3>& positions, const CornerTable& table,
                    const BoundaryLoop& loop, FillShape shape, double edge_length,
                    const CloudEvidence& evidence, TriangulationMemo* memo) {
   const std::vector<std::uint32_t> vertices = vertices_of(loop, table);
-  const LoopShape polygon = shape_of(loop, table, positions, evidence);
+  LoopShape polygon = shape_of(loop, table, positions, evidence);
+  polygon.by_length = shape == FillShape::narrow;
   FillPatch patch{polygon.points, triangulate_loop(polygon, memo), vertices.size()};
-  if (shape != FillShape::coarse && !patch.triangles.empty() &&
-      is_worth_refining(polygon, edge_length)) {
+  const bool is_refined = shape == FillShape::flat || shape == FillShape::smooth;
+  if (is_refined && !patch.triangles.empty() && is_worth_refining(polygon, edge_length)) {
     refine_patch(patch, scales_of(polygon.points, edge_length),
                  [&](std::uint32_t i, std::uint32_t k) { return polygon.is_forbidden(i, k); });
     flatten_patch(patch);

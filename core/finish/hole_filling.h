@@ -16,6 +16,7 @@ namespace rangezip {
 /// Shape of a fill inside its loop.
 enum class FillShape {
   coarse,  ///< no new points: small holes and cracks
+  narrow,  ///< the same with the shortest edges: cracks with sides so ragged that angles mislead
   flat,    ///< points as dense as around the hole, as a soap film
   smooth,  ///< the same, continuing the surface around
   zipped,  ///< only where the sides are close together (zip_loop)
@@ -36,9 +37,9 @@ struct HoleFill {
                                    : fill.new_positions[vertex - positions.size()];
 }
 
-/// Fills one loop: least sharp triangulation (core/finish/loop_triangulation.h), then refined and
-/// shaped, unless ten edges go around it or fewer. Never makes an edge that the mesh already has.
-/// Empty if there is no such triangulation.
+/// Fills one loop: least sharp triangulation (core/finish/loop_triangulation.h), or the one with
+/// the shortest edges, then refined and shaped, unless ten edges go around it or fewer. Never makes
+/// an edge that the mesh already has. Empty if there is no such triangulation.
 /// @param edge_length of new edges, model units; 0: as long as those around the hole
 /// @param positions of the table's vertices; more may follow
 /// @param evidence points to air, which a fill avoids

@@ -41,14 +41,14 @@ struct Piece {
 };
 
 /// How bad a triangulation is: first by what leads through air, then by its sharpest edge, then by
-/// its area.
+/// its size.
 struct Weight {
   double air = 0.0;    ///< twice the area that leads through air
   double angle = 0.0;  ///< the largest 1 - cos between neighbours
-  double area = 0.0;   ///< twice the area
+  double size = 0.0;   ///< twice the area, or the length of the sides
 
   friend bool operator<(const Weight& a, const Weight& b) {
-    return std::tie(a.air, a.angle, a.area) < std::tie(b.air, b.angle, b.area);
+    return std::tie(a.air, a.angle, a.size) < std::tie(b.air, b.angle, b.size);
   }
 };
 
@@ -120,14 +120,18 @@ class Triangulator {
       const Weight& left = weights_[slot(i, m)];
       const Weight& right = weights_[slot(k, m)];
       Weight weight{left.air + right.air, std::max(left.angle, right.angle),
-                    left.area + right.area};
+                    left.size + right.size};
       if (weight.air == kInfinity || is_worse(weight, best)) continue;
       const Vec3 area = area_vector(point(i), point(m), point(k));
       const double length = glm::length(area);
       constexpr double kFold = 2.0;  // a triangle without area: as bad as a fold
-      weight.area += length;
+      weight.size += shape_.by_length
+                         ? glm::length(point(m) - point(i)) + glm::length(point(k) - point(m))
+                         : length;
       const Vec3 normal = length > 0.0 ? area / length : Vec3(0.0);
-      if (length > 0.0) {
+      if (shape_.by_length) {
+        weight.angle = 0.0;
+      } else if (length > 0.0) {
         weight.angle = std::max(
             {weight.angle, bend(normal, normals_[slot(i, m)]), bend(normal, normals_[slot(k, m)])});
         if (closes) weight.angle = std::max(weight.angle, bend(normal, piece_.edge_normals[k]));

@@ -26,6 +26,7 @@ struct LoopShape {
   AirTest is_in_air;       ///< empty: nothing is known
   double long_side = 0.0;  ///< shorter sides, model units, do not lead through air
   std::function<bool(const Triangle&)> can_take;  ///< of points; empty: any triangle may be made
+  bool by_length = false;  ///< angles do not count: between the sides of a crack they tell nothing
 
   [[nodiscard]] bool is_too_long(std::uint32_t i, std::uint32_t k) const {
     return glm::length(points[k] - points[i]) > longest_edge;
@@ -45,14 +46,15 @@ struct LoopShape {
 
 /// Triangulates a loop without new points so that the largest angle between neighbouring faces,
 /// those across the loop included, is least, and among equals the area [Barequet, Sharir 1995;
-/// Liepa 2003]. If much of that leads through air, and others with half as much or less, it is one
-/// of those with the least: a crack along the wall of a tube is closed along the wall, not across
-/// the tube. Loops beyond 100 edges are first divided by short chords, rather not through air; if
-/// what that gives leads through air, three others are tried instead of the first chord, since the
-/// shortest one may part the two rims of a crack around a tube.
-/// Triangles hold indices of points and run along the loop's edges. Empty if the forbidden edges,
-/// and triangles that can not be taken, leave no triangulation, or for fewer than three points.
-/// Cost: O(n^3) up to 100 edges, O(n^2) to divide longer ones; up to four times that beside air.
+/// Liepa 2003]; if asked for, so that the length of all sides is. If much of that leads through
+/// air, and others with half as much or less, it is one of those with the least: a crack along the
+/// wall of a tube is closed along the wall, not across the tube. Loops beyond 100 edges are first
+/// divided by short chords, rather not through air; if what that gives leads through air, three
+/// others are tried instead of the first chord, since the shortest one may part the two rims of a
+/// crack around a tube. Triangles hold indices of points and run along the loop's edges. Empty if
+/// the forbidden edges, and triangles that can not be taken, leave no triangulation, or for fewer
+/// than three points. Cost: O(n^3) up to 100 edges, O(n^2) to divide longer ones; up to four times
+/// that beside air.
 [[nodiscard]] std::vector<Triangle> triangulate_loop(const LoopShape& shape);
 
 /// How much of a triangulation leads through air, as a share of its area; 0 if nothing is known.

@@ -8,7 +8,7 @@ namespace {
 /// Equal for equal shapes only: the counts say where each part ends.
 std::vector<double> key_of(const LoopShape& shape) {
   std::vector<double> key{static_cast<double>(shape.points.size()), shape.is_in_air ? 1.0 : 0.0,
-                          shape.long_side, shape.longest_edge};
+                          shape.long_side, shape.longest_edge, shape.by_length ? 1.0 : 0.0};
   for (const Vec3& p : shape.points)
     key.insert(key.end(), {p.x, p.y, p.z});
   for (const Vec3& n : shape.edge_normals)

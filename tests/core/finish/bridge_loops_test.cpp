@@ -146,5 +146,56 @@ TEST_CASE("two sheets of a blade are joined where one reaches farther out, and o
   CHECK(bridge_loops(gap, pieces_of(gap), cloud, 1.0) == 0);
 }
 
+/// A ring, 12 across at the top where its hole is narrowest: a closed profile turned around z.
+/// Rows of squares follow each other from the edge of the hole over the top, down outside, and back
+/// along the wall of the hole.
+/// @param without this row
+TriangleMesh ring_with_sharp_hole(std::size_t without) {
+  const std::vector<Vec3> corners{{10, 0, 0}, {16, 0, 0}, {16, 0, -6}, {14, 0, -6}, {10, 0, 0}};
+  std::vector<Vec3> profile;
+  for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
+    const auto n = static_cast<int>(std::ceil(glm::distance(corners[k], corners[k + 1])));
+    for (int i = 0; i < n; ++i)
+      profile.push_back(glm::mix(corners[k], corners[k + 1], static_cast<double>(i) / n));
+  }
+  constexpr std::uint32_t kAround = 80;
+  const auto n = static_cast<std::uint32_t>(profile.size());
+  TriangleMesh mesh;
+  for (std::uint32_t a = 0; a < kAround; ++a) {
+    const double angle = 2.0 * 3.14159265358979323846 * a / kAround;
+    for (const Vec3& p : profile)
+      mesh.positions.emplace_back(p.x * std::cos(angle), p.x * std::sin(angle), p.z);
+    for (std::uint32_t i = 0; i < n; ++i) {
+      if (i == without) continue;
+      const std::uint32_t p = a * n + i, q = a * n + (i + 1) % n;
+      const std::uint32_t next_p = (p + n) % (kAround * n), next_q = (q + n) % (kAround * n);
+      mesh.triangles.push_back({p, q, next_q});
+      mesh.triangles.push_back({p, next_q, next_p});
+    }
+  }
+  return mesh;
+}
+
+TEST_CASE("the two sides of a sharp edge all around a hole are joined, those of a gap are not",
+          "[finish]") {
+  constexpr std::size_t kFirst = 0, kOutside = 8, kLast = 21;  // beside the edge: first and last
+  REQUIRE(report_mesh(ring_with_sharp_hole(100)).euler == 0);
+  REQUIRE(testing::volume_of(ring_with_sharp_hole(100)) > 0.0);
+  const PointGrid no_points({}, Box{}, 1.0);
+  const auto bridges = [&](TriangleMesh mesh) {
+    REQUIRE(pieces_of(mesh).loops.size() == 2);
+    const std::size_t count = bridge_loops(mesh, pieces_of(mesh), no_points, 1.0);
+    CHECK(pieces_of(mesh).loops.size() == 2 - count);
+    return count;
+  };
+  CHECK(bridges(ring_with_sharp_hole(kFirst)) == 1);
+  CHECK(bridges(ring_with_sharp_hole(kLast)) == 1);
+  CHECK(bridges(ring_with_sharp_hole(kOutside)) == 0);  // between two smooth sheets
+  TriangleMesh turned = ring_with_sharp_hole(kLast);    // the walls of a slit, which is air
+  for (Triangle& t : turned.triangles)
+    std::swap(t[1], t[2]);
+  CHECK(bridges(turned) == 0);
+}
+
 }  // namespace
 }  // namespace rangezip

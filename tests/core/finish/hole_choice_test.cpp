@@ -4,11 +4,13 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <optional>
+#include <random>
 #include <vector>
 
 #include "core/finish/clean_topology.h"
 #include "core/mesh/mesh_report.h"
 #include "tests/core/finish/shapes.h"
+#include "tests/support/shapes.h"
 
 namespace rangezip {
 namespace {
@@ -43,7 +45,62 @@ void add_lip(TriangleMesh& mesh) {
   }
 }
 
+/// The two sides of a thin plate around a hole through it, joined by one square in the wall of the
+/// hole: one loop, along one side and back along the other.
+TriangleMesh plate_around_hole() {
+  TriangleMesh mesh = shapes::square_sheet(24);
+  testing::cut_where(mesh, [](const Vec3& p) { return std::hypot(p.x, p.y) < 6.0; });
+  const auto count = static_cast<std::uint32_t>(mesh.positions.size());
+  const CornerTable table(mesh.triangles, count);
+  const std::vector<std::uint32_t> corners = boundary_loops(table).at(1).corners;
+  const std::uint32_t a = table.head(corners[0]), b = table.vertex(corners[0]);
+  const std::vector<Triangle> faces = mesh.triangles;
+  for (std::uint32_t v = 0; v < count; ++v)
+    mesh.positions.push_back(mesh.positions[v] - Vec3(0.0, 0.0, 1.0));
+  for (const Triangle& t : faces)
+    mesh.triangles.push_back({count + t[0], count + t[2], count + t[1]});
+  mesh.triangles.push_back({a, b, count + b});
+  mesh.triangles.push_back({a, count + b, count + a});
+  return mesh;
+}
+
 }  // namespace
+
+TEST_CASE("a ragged crack along the edge of a hole is closed along it, not by lids", "[finish]") {
+  const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
+  CAPTURE(seed);
+  std::mt19937_64 engine(seed);
+  int narrow = 0;
+  for (int k = 0; k < 20; ++k) {
+    TriangleMesh mesh = plate_around_hole();
+    const CornerTable table(mesh.triangles, mesh.positions.size());
+    std::vector<BoundaryLoop> loops = boundary_loops(table);
+    std::erase_if(loops, [&](const BoundaryLoop& loop) {
+      const Vec3& p = mesh.positions[table.vertex(loop.corners[0])];
+      return std::hypot(p.x, p.y) > 10.0;
+    });
+    REQUIRE(loops.size() == 1);
+    for (const std::uint32_t v : vertices_of(loops[0], table)) {
+      for (int i = 0; i < 3; ++i)
+        mesh.positions[v][i] += testing::uniform(engine, -0.4, 0.4);
+    }
+    const PointGrid no_points({}, Box{}, 1.0);
+    const auto choice =
+        choose_fill(mesh.positions, table, loops[0], 1000.0, false, no_points, {.pixel_size = 1.0});
+    REQUIRE(choice);
+    if (choice->shape != FillShape::narrow) {
+      CHECK(choice->shape == FillShape::flat);
+      continue;
+    }
+    ++narrow;
+    CHECK(choice->fill.triangles.size() == loops[0].corners.size() - 2);
+    for (const Triangle& t : choice->fill.triangles) {
+      for (const std::uint32_t v : t)
+        CHECK(glm::distance(mesh.positions[v], mesh.positions[t[0]]) < 4.0);
+    }
+  }
+  CHECK(narrow > 0);
+}
 
 TEST_CASE(
     "a loop over which a fill would fold back is an outline, unless it is short and of a body",

@@ -59,6 +59,15 @@ TEST_CASE("a crack around a tube is closed along the wall where the tube is know
   CHECK(least_radius(shape, strip) > 0.9 * kRadius);
 }
 
+TEST_CASE("by length of its sides a crack is closed along it, whatever the faces beside it",
+          "[finish]") {
+  LoopShape shape = crack_around_tube(0.5 * kH);
+  shape.by_length = true;
+  const std::vector<Triangle> strip = triangulate_loop(shape);
+  CHECK(strip.size() == shape.points.size() - 2);
+  CHECK(least_radius(shape, strip) > 0.9 * kRadius);
+}
+
 TEST_CASE("a long crack around a tube is divided across, not along the bridge that interrupts it",
           "[finish]") {
   constexpr double kWide = 8.0;
