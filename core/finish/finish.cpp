@@ -37,6 +37,7 @@
 #include "core/finish/settled_loops.h"
 #include "core/finish/sharpen.h"
 #include "core/finish/small_angles.h"
+#include "core/finish/small_pieces.h"
 #include "core/finish/take_back_losses.h"
 #include "core/finish/thin_handles.h"
 #include "core/finish/unfold.h"
@@ -117,6 +118,13 @@ std::size_t count_components(const TriangleMesh& mesh, std::size_t min_faces) {
       component_sizes(components_of(CornerTable(mesh.triangles, mesh.positions.size())));
   return static_cast<std::size_t>(std::count_if(
       sizes.begin(), sizes.end(), [&](std::size_t size) { return size >= min_faces; }));
+}
+
+TriangleMesh without_small_pieces(TriangleMesh mesh, const FinishOptions& options) {
+  const CornerTable table(mesh.triangles, mesh.positions.size());
+  drop_small_components(mesh, table, components_of(table),
+                        {options.min_component, options.pixel_size});
+  return mesh;
 }
 
 /// What growing works with.
@@ -456,9 +464,11 @@ FinishResult finish(TriangleMesh mesh, const SeenPoints& cloud, const FinishOpti
   result.report.papered_faces += drop_papered_faces(mesh, points, cloud, h);
   if (!cloud.votes.empty())
     result.report.papered_faces += drop_air_bridges(mesh, points, h, options.min_component);
+  const TriangleMesh before = without_small_pieces(mesh, options);
   grow_in_one(mesh, {given ? &*given : nullptr, cloud, points, options, progress}, result.report);
   given.reset();
   remove_thin_handles(mesh, points, options, result.report, progress);
+  take_back_vanished(mesh, before, points, h);
   zip_open_loops(mesh, points, options, result.report);
   if (options.max_hole_perimeter == 0.0)
     result.report.papered_faces += drop_papered_faces(mesh, points, cloud, h, kSmallPerimeter * h);

@@ -75,11 +75,11 @@ struct FinishResult {
 
 /// Makes a clean mesh of the stitched scans: turns pieces that face the wrong way, removes
 /// self-intersections, bridges cracks between pieces, closes holes that the cloud does not show to
-/// be real, then improves triangles without leaving the cloud and moves borders that stay to where
-/// it ends. The result is oriented, manifold and free of self-intersections.
-/// Faces that the points contradict, or that lie far from any (unsupported_faces.h), go, before
-/// holes are closed and, with a max_hole_perimeter of 0, after, unless they leave a hole so small
-/// that it would be closed (papered_faces.h).
+/// be real, takes back components that all this has cleared away altogether, then improves
+/// triangles without leaving the cloud and moves borders that stay to where it ends. The result is
+/// oriented, manifold and free of self-intersections. Faces that the points contradict, or that lie
+/// far from any (unsupported_faces.h), go, before holes are closed and, with a max_hole_perimeter
+/// of 0, after, unless they leave a hole so small that it would be closed (papered_faces.h).
 /// @param cloud the points that were scanned (and area samples of polygons), to which vertices are
 ///     fitted and which give evidence; may be empty: no fitting. Without votes no face is
 ///     contradicted.

@@ -12,6 +12,10 @@ namespace {
 /// An open component with fewer faces than this part of the largest is a shred.
 constexpr std::size_t kShredShare = 200;
 
+/// With so much of the faces of the largest, a component may have pockets, and pieces beside it are
+/// of their walls.
+constexpr std::size_t kHostShare = 20;
+
 /// Area vector over area: of half a sphere. What is flatter has no inside, nor pockets.
 constexpr double kFlatSheet = 0.5;
 
@@ -64,7 +68,8 @@ void keep_apart(const TriangleMesh& mesh, const std::vector<std::uint32_t>& comp
   }
 }
 
-/// Flags the components that are too small, but bodies of their own.
+/// Flags the components that are too small, or shreds by their size, but bodies of their own or
+/// sides of one.
 std::vector<std::uint8_t> small_bodies(const TriangleMesh& mesh,
                                        const std::vector<std::uint32_t>& component,
                                        const std::vector<std::size_t>& sizes, std::size_t largest,
@@ -72,7 +77,10 @@ std::vector<std::uint8_t> small_bodies(const TriangleMesh& mesh,
   std::vector<std::uint8_t> is_large(sizes.size(), 0), is_body(sizes.size(), 0);
   bool any = false;
   for (std::size_t k = 0; k < sizes.size(); ++k) {
-    is_large[k] = k == largest || sizes[k] >= options.min_faces ? 1 : 0;
+    is_large[k] =
+        k == largest || (sizes[k] >= options.min_faces && kHostShare * sizes[k] >= sizes[largest])
+            ? 1
+            : 0;
     is_body[k] = is_large[k] == 0 && sizes[k] >= kLeastBody ? 1 : 0;
     any = any || is_body[k] != 0;
   }
@@ -88,19 +96,21 @@ DroppedComponents drop_small_components(TriangleMesh& mesh, const CornerTable& t
   DroppedComponents result;
   const std::vector<std::size_t> sizes = component_sizes(component);
   if (sizes.empty() || options.min_faces == 0) return result;
-  const std::vector<std::uint8_t> is_open = open_components(table, component, sizes.size());
   const auto largest =
       static_cast<std::size_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+  std::vector<std::uint8_t> may_be_shred = open_components(table, component, sizes.size());
+  for (std::size_t k = 0; k < sizes.size(); ++k)
+    may_be_shred[k] = may_be_shred[k] != 0 && kShredShare * sizes[k] < sizes[largest] ? 1 : 0;
   const std::vector<std::uint8_t> is_body = small_bodies(mesh, component, sizes, largest, options);
   std::optional<bool> is_scene;  // asked of the largest once there is a shred
   std::vector<std::uint8_t> goes(sizes.size(), 0);
   for (std::size_t k = 0; k < sizes.size(); ++k) {
-    if (k == largest) continue;
-    const bool is_small = sizes[k] < options.min_faces && is_body[k] == 0;
-    const bool may_be_shred = is_open[k] != 0 && kShredShare * sizes[k] < sizes[largest];
-    if (!is_small && may_be_shred && !is_scene)
+    if (k == largest || is_body[k] != 0) continue;
+    const bool is_small = sizes[k] < options.min_faces;
+    if (!is_small && may_be_shred[k] == 0) continue;
+    if (!is_small && !is_scene)
       is_scene = is_flat_sheet(mesh, component, static_cast<std::uint32_t>(largest));
-    if (!is_small && (!may_be_shred || *is_scene)) continue;
+    if (!is_small && *is_scene) continue;
     goes[k] = 1;
     ++result.components;
     result.faces += sizes[k];

@@ -24,8 +24,9 @@ struct SmallPieceOptions {
 /// pieces of walls in pockets that no view connects. A sheet has no pockets if its area vector is
 /// at least half its area (it is flatter than half a sphere): beside it they are things of their
 /// own, such as roofs over a ground, and stay. A component of 40 faces that stands apart, by 3 h
-/// from all with `min_faces` faces, is a small body, and not dropped for its size. The largest one
-/// (the earliest of equals) always stays. Positions stay. Cost: linear.
+/// from all with `min_faces` and a twentieth of the largest one's faces, is a small body or one
+/// side of it, and stays. So does the largest one (the earliest of equals). Positions stay. Cost:
+/// linear.
 /// @param table of the mesh, as it is before
 /// @param component of each face: components_of(table)
 /// @pre oriented and manifold

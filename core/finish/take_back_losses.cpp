@@ -90,12 +90,15 @@ class Losses {
   /// Chooses the sets at an open loop, or of which nothing is left, in which much more surface went
   /// than came.
   /// @param least surface lost, square model units
-  void choose_by_area(double least) {
+  /// @param only_vanished only those of which nothing is left
+  void choose_by_area(double least, bool only_vanished) {
     const std::vector<double> gone = areas_of_sets(gone_), made = areas_of_sets(made_);
     const std::vector<Where> where = where_of_sets();
     for (std::size_t set = 0; set < gone.size(); ++set) {
       const bool is_much = made[set] <= kMostMade * gone[set] && gone[set] - made[set] >= least;
-      is_undone_[set] = is_much && where[set] != Where::inside ? 1 : 0;
+      const bool may_come_back =
+          only_vanished ? where[set] == Where::nowhere : where[set] != Where::inside;
+      is_undone_[set] = is_much && may_come_back ? 1 : 0;
     }
   }
 
@@ -187,20 +190,30 @@ class Losses {
   std::vector<std::uint8_t> is_undone_;  ///< of sets, by the vertex that names each
 };
 
-}  // namespace
-
-std::size_t take_back_losses(TriangleMesh& mesh, const TriangleMesh& before, const PointGrid* cloud,
-                             double pixel_size) {
+std::size_t take_back(TriangleMesh& mesh, const TriangleMesh& before, const PointGrid* cloud,
+                      double pixel_size, bool only_vanished) {
   const TriangleMesh after = with_numbers_of(before, mesh);
   TriangleMesh undone = after;
   Losses losses(before, after);
-  losses.choose_by_area(kSmallLoss * pixel_size * pixel_size);
+  losses.choose_by_area(kSmallLoss * pixel_size * pixel_size, only_vanished);
   if (cloud != nullptr) losses.keep_by_points(*cloud, kLeftOut * pixel_size);
   const std::size_t back = losses.undo(undone);
   if (back == 0) return 0;
   mesh = std::move(undone);
   remove_unused_vertices(mesh);
   return back;
+}
+
+}  // namespace
+
+std::size_t take_back_losses(TriangleMesh& mesh, const TriangleMesh& before, const PointGrid* cloud,
+                             double pixel_size) {
+  return take_back(mesh, before, cloud, pixel_size, false);
+}
+
+std::size_t take_back_vanished(TriangleMesh& mesh, const TriangleMesh& before,
+                               const PointGrid& cloud, double pixel_size) {
+  return take_back(mesh, before, &cloud, pixel_size, true);
 }
 
 }  // namespace rangezip

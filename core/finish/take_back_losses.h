@@ -24,4 +24,9 @@ namespace rangezip {
 std::size_t take_back_losses(TriangleMesh& mesh, const TriangleMesh& before, const PointGrid* cloud,
                              double pixel_size);
 
+/// The same for components of which nothing is left, such as the two sides of a thin body that are
+/// too close to be joined: ring by ring, the rounds of a repair take them away altogether.
+std::size_t take_back_vanished(TriangleMesh& mesh, const TriangleMesh& before,
+                               const PointGrid& cloud, double pixel_size);
+
 }  // namespace rangezip

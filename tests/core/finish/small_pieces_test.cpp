@@ -76,6 +76,22 @@ TEST_CASE(
   REQUIRE(kept.triangles == (is_open ? large : mesh).triangles);
 }
 
+TEST_CASE("an open piece is no shred if it has 40 faces and stands apart from all large components",
+          "[finish]") {
+  // As one side of a thin body; beside it another small body, which has no pockets.
+  constexpr double kPixel = 0.1;
+  const double gap = GENERATE(2.0, 4.0);  // pixel sides, to the large one
+  const int n = GENERATE(1, 2);
+  CAPTURE(gap, n);
+  TriangleMesh side = testing::sphere(n);
+  side.triangles.pop_back();
+  TriangleMesh mesh = testing::sphere(48);  // 27,648 faces: shreds have up to 138
+  add(mesh, side, {2.0 + gap * kPixel, 0, 0});
+  add(mesh, testing::sphere(6), {2.0 + gap * kPixel, 2.0, 0});  // 432 faces
+  const bool stays = gap > 3.0 && n == 2;
+  CHECK(drop_small(mesh, 5, kPixel).components == (stays ? 0U : 1U));
+}
+
 TEST_CASE("beside a sheet flatter than half a sphere an open piece is no shred") {
   // Caps of a sphere: area vector over area is (1 + height) / 2 with the height of the plane that
   // cuts them off, here for 6912 faces of the whole sphere.

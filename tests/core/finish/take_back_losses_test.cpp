@@ -109,6 +109,22 @@ TEST_CASE("a piece of which nothing is left comes back, if it is large enough an
   CHECK(mesh == sheet);
 }
 
+TEST_CASE("of a component that has gone all comes back, of one with a hole nothing", "[finish]") {
+  TriangleMesh both = sheet_with_hole(0.5);
+  TriangleMesh piece = shapes::square_sheet(kSide);
+  for (Vec3& p : piece.positions)
+    p.z += 20.0;
+  testing::append(both, piece);
+  std::vector<Vec3> points = cloud_on(0.5).points(10'000);
+  for (const Vec3& p : cloud_on(0.5, 20.0).points(10'000))
+    points.push_back(p);
+  const PointGrid cloud(points, kRegion, kH);
+  TriangleMesh mesh = sheet_with_hole(3.5);
+  CHECK(take_back_vanished(mesh, both, cloud, kH) == piece.triangles.size());
+  CHECK(report_mesh(mesh).components == 2);
+  CHECK(area_of(mesh) == Approx(area_of(sheet_with_hole(3.5)) + area_of(piece)));
+}
+
 TEST_CASE("without a cloud the area that is lost decides", "[finish]") {
   const TriangleMesh crack = sheet_with_hole(0.5);
   TriangleMesh little = sheet_with_hole(1.5);
