@@ -1,6 +1,7 @@
 #include "core/finish/split_features.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -8,7 +9,8 @@
 namespace rangezip {
 namespace {
 
-constexpr double kSplitReach = 0.7;   // of an edge: it crosses the feature so near its middle
+constexpr double kSplitReach = 0.7;   // of an edge: it crosses a right angle so near its middle
+constexpr double kFarthest = 3.0;     // in h: so near any other
 constexpr double kCornerReach = 1.4;  // of the way from the middle of a face to a vertex
 constexpr double kTaken = 0.35;       // in h: no vertex comes so near to one on a feature
 
@@ -27,7 +29,8 @@ class Splitter {
         {seen_from(middle, mesh_.surfaces[a], 1.0), seen_from(middle, mesh_.surfaces[b], 1.0)});
     if (is_one_side(around.sides[0], around.sides[1])) return false;
     const std::optional<Vec3> place = meeting_place(around.sides);
-    if (!place || glm::length(*place) > kSplitReach * glm::distance(at(a), at(b))) return false;
+    if (!place || glm::length(*place) > reach_across(around, glm::distance(at(a), at(b))))
+      return false;
     if (!residual2_of_sides(around, *place, {0, 1})) return false;
     const Vec3 crossing = middle + *place;
     const std::uint32_t x = table.apex(corner), y = table.apex(table.across(corner));
@@ -50,6 +53,16 @@ class Splitter {
 
  private:
   [[nodiscard]] const Vec3& at(std::uint32_t vertex) const { return mesh_.positions[vertex]; }
+
+  /// How far from the middle of an edge between two sides these may meet: the sharper they do, the
+  /// farther, as the tip of a wedge from a line across it.
+  [[nodiscard]] double reach_across(const Surroundings& around, double edge) const {
+    const double cosine =
+        glm::dot(unit_or_z(around.sides[0].height.slope), unit_or_z(around.sides[1].height.slope));
+    const double sharper = std::sqrt((1.0 - cosine) / std::max(1.0 + cosine, 1e-6));
+    return std::min(kSplitReach * edge * std::max(1.0, sharper),
+                    std::max(kSplitReach * edge, kFarthest * around.pixel_size));
+  }
 
   /// Whether a vertex on an edge of a feature (1) or at a corner (2), at least, is next to a place.
   [[nodiscard]] bool is_taken(std::uint32_t vertex, const Vec3& place, std::uint8_t least) const {

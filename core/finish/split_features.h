@@ -7,6 +7,7 @@
 namespace rangezip {
 
 /// Splits edges between clean sides of a feature, none of whose ends is on it, where the sides meet
+/// (no farther from the edge, up to 3 h, than the tip of a wedge as sharp is from a line across it)
 /// and the points lie on them; none next to a vertex that is on the feature already (0.35 h).
 /// @return how many. Cost: one pass over the edges, and the points around those that cross.
 std::size_t split_crossing_edges(FeatureMesh& mesh, const FeatureCloud& cloud);

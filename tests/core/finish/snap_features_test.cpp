@@ -98,6 +98,40 @@ TEST_CASE("snap_features restores the edges and corners of a cube") {
   }
 }
 
+TEST_CASE("edges sharper than a right angle are restored all along", "[finish]") {
+  // A cube, sheared so that two of its edges along y have this angle.
+  const double degrees = GENERATE(30.0, 45.0, 60.0);
+  CAPTURE(degrees);
+  const double slope = 1.0 / std::tan(degrees * 3.14159265358979323846 / 180.0);
+  const auto sheared = [&](const Vec3& p) {
+    const Vec3 q = turned_back(p);
+    return turned(Vec3(q.x + slope * q.z, q.y, q.z));
+  };
+  std::vector<Vec3> points = cube_points(0.0, 0.0, 1);
+  for (Vec3& p : points)
+    p = sheared(p);
+  TriangleMesh mesh = scanned_cube(1.5 * kH);
+  for (Vec3& p : mesh.positions)
+    p = sheared(p);
+  const Box region{Vec3(-5.0), Vec3(5.0)};
+  const PointGrid cloud(points, region, 0.7 * kH);
+  snap_features(mesh, cloud, options_for(mesh, cloud));
+  remove_unused_vertices(mesh);
+  REQUIRE(report_mesh(mesh).is_manifold());
+  int places = 0, reached = 0;
+  for (double y = -0.9; y < 0.9; y += 0.8 * kH) {
+    for (const double end : {-1.0, 1.0}) {
+      const Vec3 place = turned(Vec3(end * (1.0 + slope), y, end));
+      ++places;
+      reached += std::any_of(mesh.positions.begin(), mesh.positions.end(), [&](const Vec3& p) {
+        const Vec3 d = turned_back(p - place);
+        return std::hypot(d.x, d.z) < 0.05 * kH && std::abs(d.y) < 0.8 * kH;
+      });
+    }
+  }
+  CHECK(reached >= 0.9 * places);
+}
+
 TEST_CASE("vertices that are to stay do, and the edges between them") {
   const PointGrid cloud(cube_points(0.0, 0.0, 1), kRegion, 0.7 * kH);
   const TriangleMesh before = scanned_cube(0.0);
