@@ -1,35 +1,16 @@
 #include <cmath>
-#include <variant>
 
+#include "core/plan/scene_triangles.h"
 #include "core/plan/spacing.h"
 
 namespace rangezip {
 
 namespace {
 
-struct Corners {
-  Vec3 a, b, c;
-
-  /// 0 for a triangle with a corner that is not finite.
-  [[nodiscard]] double area() const {
-    const double twice = glm::length(area_vector(a, b, c));
-    return std::isfinite(twice) ? 0.5 * twice : 0.0;
-  }
-};
-
-/// Calls visit(corners) for each triangle of the scene, in world space.
-template <class Visitor>
-void for_each_triangle(const Scene& scene, const Visitor& visit) {
-  for (const DrawItem& item : scene.draw_items()) {
-    const auto* soup = std::get_if<DrawTriangles>(&item);
-    if (soup == nullptr) continue;
-    const auto world = [&](std::uint32_t corner) {
-      return Vec3(soup->world_from_item * Vec4(Vec3(soup->positions[corner]), 1.0));
-    };
-    for (const Triangle& t : soup->triangles) {
-      visit(Corners{world(t[0]), world(t[1]), world(t[2])});
-    }
-  }
+/// 0 for a triangle with a corner that is not finite.
+double area_of(const TriangleCorners& triangle) {
+  const double twice = glm::length(area_vector(triangle.a, triangle.b, triangle.c));
+  return std::isfinite(twice) ? 0.5 * twice : 0.0;
 }
 
 /// The fractional part of `index` times the golden ratio, exactly: consecutive ones are spread
@@ -44,7 +25,7 @@ double golden_fraction(std::uint64_t index) {
 
 double triangle_area(const Scene& scene) {
   double area = 0.0;
-  for_each_triangle(scene, [&](const Corners& triangle) { area += triangle.area(); });
+  for_each_triangle(scene, [&](const TriangleCorners& triangle) { area += area_of(triangle); });
   return area;
 }
 
@@ -59,8 +40,8 @@ std::vector<Vec3> area_samples(const Scene& scene, std::size_t count) {
   // leaves no large gap in a large triangle.
   const double area_of_sample = total / static_cast<double>(count);
   double begin = 0.0;
-  for_each_triangle(scene, [&](const Corners& triangle) {
-    const double area = triangle.area();
+  for_each_triangle(scene, [&](const TriangleCorners& triangle) {
+    const double area = area_of(triangle);
     const double end = begin + area;
     while (samples.size() < count) {
       const double stand = (static_cast<double>(samples.size()) + 0.5) * area_of_sample;

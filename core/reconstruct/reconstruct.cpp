@@ -16,6 +16,7 @@
 #include "core/finish/regrow.h"
 #include "core/mesh/self_intersection.h"
 #include "core/plan/open_sheet.h"
+#include "core/plan/outer_samples.h"
 #include "core/plan/spacing.h"
 #include "core/plan/view_planner.h"
 #include "core/reconstruct/dense_places.h"
@@ -205,6 +206,9 @@ class Run {
     }
     // Where contours lie apart every face is far from points, and none across a gap can be told.
     has_narrow_gaps_ = share_of(uncovered) >= kNarrowShare && recipe_.gap == 0.0;
+    // Of polygons that may lie inside, where nothing is to grow.
+    has_inside_ = has_narrow_gaps_ && scene_.triangle_count() > 0 &&
+                  !are_outer(outer_samples(scene_, uncovered, progress_));
     if (has_narrow_gaps_) scan_narrow_gaps();
     book("uncovered");
   }
@@ -391,8 +395,7 @@ class Run {
       command.options.open_sheet = recipe_.one_sided;
       if (recipe_.one_sided) command.options.min_component = kMinPieceOfSheet;
       command.options.is_clean = true;  // every stitch was checked
-      // Much of polygons that no view has reached lies inside, where nothing is to grow.
-      command.options.regrow = is_plain_cloud() || (scene_.point_count() == 0 && !has_narrow_gaps_);
+      command.options.regrow = is_plain_cloud() || (scene_.point_count() == 0 && !has_inside_);
       command.options.follow_density = follows_density();
       command.options.snap_features = recipe_.gap == 0.0;  // between contours a bend looks sharp
       command.vote = vote_on_faces();
@@ -436,6 +439,7 @@ class Run {
   bool is_sparse_ = false;          ///< the points: finer pixels see through, fronts grow over
   bool is_clean_ = true;            ///< enough to scan papered holes again
   double fill_share_ = kFillShare;  ///< of the progress, so far
+  bool has_inside_ = false;         ///< polygons that no view reaches within others
   bool has_narrow_gaps_ = false;    ///< that the planned views did not reach
   std::vector<Vec3> samples_;       ///< points, then area samples of polygons
 };

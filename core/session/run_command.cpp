@@ -14,8 +14,8 @@
 #include "core/finish/laplacian_smooth.h"
 #include "core/finish/unsupported_faces.h"
 #include "core/mesh/handles.h"
+#include "core/plan/hidden_samples.h"
 #include "core/plan/spacing.h"
-#include "core/plan/unseen_samples.h"
 #include "core/session/erase_region.h"
 #include "core/view/view.h"
 
@@ -124,11 +124,11 @@ class CommandRun {
     const bool is_finished = !result_.mesh.empty() && pixel_size > 0.0 && std::isfinite(pixel_size);
     if (scene_.triangle_count() == 0 || !is_finished) return points;
     const std::size_t scanned = scene_.point_count();
-    const std::vector<std::uint8_t> on_triangles = unseen_samples(
+    std::vector<std::uint8_t> is_hidden(scanned, 0);
+    const std::vector<std::uint8_t> hidden = hidden_samples(
         rasterizer_, scene_, std::span(points).subspan(scanned), pixel_size, progress_);
-    std::vector<std::uint8_t> is_unseen(scanned, 0);
-    is_unseen.insert(is_unseen.end(), on_triangles.begin(), on_triangles.end());
-    drop_hidden_layers(points, is_unseen, result_.mesh, pixel_size);
+    is_hidden.insert(is_hidden.end(), hidden.begin(), hidden.end());
+    drop_hidden_layers(points, is_hidden, result_.mesh, pixel_size);
     return points;
   }
 

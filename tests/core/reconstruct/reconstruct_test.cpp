@@ -236,6 +236,23 @@ TEST_CASE("what polygons have inside leaves no trace on their surface", "[recons
   CHECK(distance_from_unit_sphere(result.mesh) < 0.1 * kPixel);
 }
 
+TEST_CASE("the walls of a cavity behind a narrow mouth are meshed, given as polygons",
+          "[reconstruct]") {
+  constexpr double kPixel = 0.05, kMouth = 0.075, kInner = 0.6;  // radius of the mouth: 1.5 pixels
+  std::vector<Vec2> profile = shapes::arc(1.0, 0.0, kPi - std::asin(kMouth), 48);
+  const std::vector<Vec2> inner = shapes::arc(kInner, kPi - std::asin(kMouth / kInner), 0.0, 48);
+  profile.insert(profile.end(), inner.begin(), inner.end());
+  ReconstructOptions options;
+  options.pixel_size = kPixel;
+  const ReconstructResult result = run(scene_of(shapes::revolved(profile, false)), options);
+  check_clean(result);
+  CHECK(result.report.mesh.boundary_edges == 0);
+  CHECK(result.report.mesh.euler == 2);
+  CHECK(result.report.coverage.share > 0.999);
+  const double whole = 4.0 / 3.0 * kPi;
+  CHECK(signed_volume(result.mesh) == Approx(whole * (1.0 - std::pow(kInner, 3))).epsilon(0.02));
+}
+
 TEST_CASE("polygons are scanned as they are: a washer stays closed, of genus 1 and exact",
           "[reconstruct]") {
   const ReconstructResult result =
