@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include "core/base/disjoint_sets.h"
 #include "core/base/parallel.h"
@@ -46,8 +48,10 @@ class AxisLines {
     side_ = static_cast<std::size_t>(std::clamp(cells, kFewestCells, kMostCells));
     origin_ = across(bounds.lower);
     const Place end = across(bounds.upper);
-    for (std::size_t i = 0; i < 2; ++i)
-      per_cell_[i] = static_cast<double>(side_) / std::max(end[i] - origin_[i], kTiny);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double extent = end[i] - origin_[i];
+      per_cell_[i] = extent > kTiny ? static_cast<double>(side_) / extent : 1.0;
+    }
     sort_into_cells();
   }
 
@@ -74,7 +78,8 @@ class AxisLines {
   }
 
  private:
-  static constexpr double kTiny = 1e-300;
+  static constexpr double kTiny = 1e-200;  ///< model units: flat
+  static constexpr double kBeside = 1e-6;  ///< of a cell: what rounding may move
 
   [[nodiscard]] Place across(const Vec3& p) const { return {p[u_], p[v_]}; }
 
@@ -83,18 +88,38 @@ class AxisLines {
     return static_cast<std::size_t>(std::clamp(cell, 0.0, static_cast<double>(side_ - 1)));
   }
 
+  /// The cells that a triangle meets, by columns: a long sliver across the grid meets few.
   template <class Visitor>
   void for_each_cell(const TriangleCorners& t, const Visitor& visit) const {
-    const Place a = across(t.a), b = across(t.b), c = across(t.c);
-    std::array<std::size_t, 2> first{}, last{};
-    for (std::size_t i = 0; i < 2; ++i) {
-      first[i] = cell_of(std::min({a[i], b[i], c[i]}), i);
-      last[i] = cell_of(std::max({a[i], b[i], c[i]}), i);
-    }
-    for (std::size_t x = first[0]; x <= last[0]; ++x) {
-      for (std::size_t y = first[1]; y <= last[1]; ++y)
+    const std::array<Place, 3> corners{across(t.a), across(t.b), across(t.c)};
+    const auto [first, last] = std::minmax({corners[0][0], corners[1][0], corners[2][0]});
+    for (std::size_t x = cell_of(first, 0); x <= cell_of(last, 0); ++x) {
+      const auto [lower, upper] = range_in_column(corners, x);
+      for (std::size_t y = cell_of(lower, 1); y <= cell_of(upper, 1); ++y)
         visit(x * side_ + y);
     }
+  }
+
+  /// How far down and up a triangle reaches in a column of cells, and a little farther.
+  [[nodiscard]] std::pair<double, double> range_in_column(const std::array<Place, 3>& corners,
+                                                          std::size_t column) const {
+    const double left = origin_[0] + (static_cast<double>(column) - kBeside) / per_cell_[0];
+    const double right = origin_[0] + (static_cast<double>(column + 1) + kBeside) / per_cell_[0];
+    double lower = std::numeric_limits<double>::infinity(), upper = -lower;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Place &p = corners[i], &q = corners[(i + 1) % 3];
+      if (std::max(p[0], q[0]) < left || std::min(p[0], q[0]) > right) continue;
+      const double run = q[0] - p[0];
+      const auto share_at = [&](double x) { return std::clamp((x - p[0]) / run, 0.0, 1.0); };
+      const double from = run == 0.0 ? 0.0 : share_at(left);
+      const double to = run == 0.0 ? 1.0 : share_at(right);
+      for (const double share : {from, to}) {
+        const double y = p[1] + share * (q[1] - p[1]);
+        lower = std::min(lower, y);
+        upper = std::max(upper, y);
+      }
+    }
+    return {lower - kBeside / per_cell_[1], upper + kBeside / per_cell_[1]};
   }
 
   void sort_into_cells() {

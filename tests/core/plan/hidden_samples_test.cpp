@@ -4,6 +4,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -88,6 +89,14 @@ TEST_CASE("a single triangle has no outside that lines could tell") {
   const Scene scene = scene_of(soup);
   CHECK(count_of(outer_samples(scene, area_samples(scene, 1000))) == 0);
   CHECK(outer_samples(scene, {}).empty());
+}
+
+TEST_CASE("slivers across the whole scene are told like any other triangles") {
+  // The sides of a long thin drum along no axis.
+  const std::array<Vec2, 4> profile{Vec2(0, -10), Vec2(0.1, -10), Vec2(0.1, 10), Vec2(0, 10)};
+  const Scene scene =
+      scene_of(shapes::moved(shapes::revolved(profile, false, 20'000), shapes::tilt()));
+  CHECK(are_outer(outer_samples(scene, area_samples(scene, 5'000))));
 }
 
 TEST_CASE("the walls of a cavity are not hidden, those of a body within a body are") {
