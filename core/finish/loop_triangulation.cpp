@@ -52,6 +52,8 @@ struct Weight {
   }
 };
 
+constexpr double kFold = 2.0;  ///< the largest angle
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Weight kImpossible{kInfinity, kInfinity, kInfinity};
 
@@ -124,24 +126,33 @@ class Triangulator {
       if (weight.air == kInfinity || is_worse(weight, best)) continue;
       const Vec3 area = area_vector(point(i), point(m), point(k));
       const double length = glm::length(area);
-      constexpr double kFold = 2.0;  // a triangle without area: as bad as a fold
-      weight.size += shape_.by_length
-                         ? glm::length(point(m) - point(i)) + glm::length(point(k) - point(m))
-                         : length;
+      weight.size += shape_.by_length ? length_of_sides(i, m, k) : length;
       const Vec3 normal = length > 0.0 ? area / length : Vec3(0.0);
-      if (shape_.by_length) {
-        weight.angle = 0.0;
-      } else if (length > 0.0) {
-        weight.angle = std::max(
-            {weight.angle, bend(normal, normals_[slot(i, m)]), bend(normal, normals_[slot(k, m)])});
-        if (closes) weight.angle = std::max(weight.angle, bend(normal, piece_.edge_normals[k]));
-      } else {
-        weight.angle = kFold;
-      }
+      weight.angle = std::max(weight.angle, sharpest_angle(i, m, k, normal));
+      if (closes) weight.angle = std::max(weight.angle, angle_across(k, normal));
       if (!(weight < best)) continue;
       if (avoids_air_ && leads_through_air(i, m, k)) weight.air += length;
       if (weight < best && can_take(i, m, k)) set(i, k, weight, normal, m);
     }
+  }
+
+  /// Between a triangle, with this unit normal, and those across its sides from i to m and m to k;
+  /// one without area is as bad as a fold.
+  [[nodiscard]] double sharpest_angle(std::size_t i, std::size_t m, std::size_t k,
+                                      const Vec3& normal) const {
+    if (shape_.by_length) return 0.0;
+    if (glm::dot(normal, normal) == 0.0) return kFold;
+    return std::max(bend(normal, normals_[slot(i, m)]), bend(normal, normals_[slot(k, m)]));
+  }
+
+  /// The same across edge k of the piece.
+  [[nodiscard]] double angle_across(std::size_t k, const Vec3& normal) const {
+    return shape_.by_length ? 0.0 : bend(normal, piece_.edge_normals[k]);
+  }
+
+  /// Without the side from k to i, which counts for the triangle across it.
+  [[nodiscard]] double length_of_sides(std::size_t i, std::size_t m, std::size_t k) const {
+    return glm::length(point(m) - point(i)) + glm::length(point(k) - point(m));
   }
 
   [[nodiscard]] bool can_take(std::size_t i, std::size_t m, std::size_t k) const {
