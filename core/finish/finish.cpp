@@ -120,6 +120,7 @@ std::size_t count_components(const TriangleMesh& mesh, std::size_t min_faces) {
       sizes.begin(), sizes.end(), [&](std::size_t size) { return size >= min_faces; }));
 }
 
+/// What a repair would not drop for its size: of the rest nothing is to come back.
 TriangleMesh without_small_pieces(TriangleMesh mesh, const FinishOptions& options) {
   const CornerTable table(mesh.triangles, mesh.positions.size());
   drop_small_components(mesh, table, components_of(table),

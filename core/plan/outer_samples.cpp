@@ -156,8 +156,8 @@ class AxisLines {
   std::vector<std::size_t> entries_;  ///< triangles, by cell
 };
 
-/// Flags of the triangles of closed voids: pieces, joined at corners, that enclose less than
-/// nothing since they look inwards.
+/// Flags of the triangles of closed voids: pieces, joined at corners, that look inwards where all
+/// together look outwards, or the other way round.
 std::vector<std::uint8_t> triangles_of_voids(const std::vector<TriangleCorners>& triangles,
                                              const Vec3& origin) {
   const auto corner = [&](std::size_t i) -> const Vec3& {

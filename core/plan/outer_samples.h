@@ -12,13 +12,12 @@ namespace rangezip {
 
 /// Flags (1) of samples of a scene's triangles that have, on one side of the triangle, the outside
 /// of all bodies: the walls of a groove or cavity, but not what of one body lies within another,
-/// where two touch, nor the walls of a closed void: pieces that look inwards where the
-/// others look outwards. Lines along the three
-/// axes tell: how many bodies a place is inside of is the sum of the triangles above it, those that
-/// look up less those that look down (the winding number). A line along which that sum is not 0 as
-/// a whole, as beside a sheet that is open or whose triangles look in different directions, tells
-/// nothing, nor does one that only grazes the sample's triangle; without any that does, or where
-/// they disagree, the flag is 0.
+/// where two touch, nor the walls of a closed void: pieces that look inwards where the others look
+/// outwards. Lines along the three axes tell: how many bodies a place is inside of is the sum of
+/// the triangles above it, those that look up less those that look down (the winding number). A
+/// line along which that sum is not 0 as a whole, as beside a sheet that is open or whose triangles
+/// look in different directions, tells nothing, nor does one that only grazes the sample's
+/// triangle; without any that does, or where they disagree, the flag is 0.
 /// @param samples world coordinates, on triangles of the scene (area_samples())
 /// Cost: O(n log n) in the triangles to join and sort them into cells, and per sample those in its
 /// cell; samples in parallel.
