@@ -146,8 +146,8 @@ void describe(Fields& f, DecimateOptions& options) {
 
 template <class Fields>
 void describe(Fields& f, StitchOptions& options) {
-  auto& [method, band, clearance, max_gap, min_strip_cosine, collapse_ratio, min_component, view] =
-      options;
+  auto& [method, band, clearance, max_gap, min_strip_cosine, collapse_ratio, withdrawal,
+         min_component, view] = options;
   f.choice("method", method,
            std::array{Choice<StitchMethod>{"clear_and_fill", StitchMethod::clear_and_fill},
                       Choice<StitchMethod>{"zipper", StitchMethod::zipper}},
@@ -162,6 +162,8 @@ void describe(Fields& f, StitchOptions& options) {
            "strip triangles with a smaller cosine to the line of sight stay open");
   f.number("collapse_ratio", collapse_ratio, kNotNegative,
            "zipper: seam edges shorter than this share of a pixel side are collapsed; 0: none");
+  f.integer("withdrawal", withdrawal, {0, kMaxRasterExtent},
+            "pixels around a hole by which the patch gives way first; 0: its triangles there");
   f.integer("min_component", min_component, kCount,
             "triangles; smaller pieces of the result are dropped");
   f.optional_integer("view", view, VertexSource::kNoView,

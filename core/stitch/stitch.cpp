@@ -28,9 +28,8 @@ namespace {
 /// Where the old surface was a face must be within this many pixel sides.
 constexpr double kLostDistance = 1.0;
 
-/// From a hole the patch is withdrawn by this many pixels, from the seventh time on by twice as
-/// many each time; after the last one altogether.
-constexpr int kFirstWithdrawal = 2;
+/// From a hole the patch is withdrawn by as many pixels each time, from the seventh time on by
+/// twice as many as before; after the last one altogether.
 constexpr int kEqualWithdrawals = 6;
 constexpr int kWithdrawals = 10;
 
@@ -292,7 +291,7 @@ Settled settle(const MeshPart& part, const ImagePlane& image, const Scan& scan,
                const StitchOptions& options, bool keeps_old) {
   Settled settled{.patch = scan.patch};
   Patch whole = scan.decimate ? scan.whole_patch : scan.patch;
-  int radius = kFirstWithdrawal;
+  int radius = options.withdrawal;
   for (int round = 1; !settled.patch.mesh.empty(); ++round) {
     Tried tried = try_to_join(part, image, PatchScan(scan, settled.patch, part.face_in_whole),
                               options, keeps_old);
@@ -306,7 +305,7 @@ Settled settle(const MeshPart& part, const ImagePlane& image, const Scan& scan,
     if (round > kWithdrawals) break;
     whole = withdraw_locally(scan.image, whole, tried.lost, radius);
     settled.patch = scan.decimate ? decimate(scan.image, whole, *scan.decimate) : whole;
-    if (round >= kEqualWithdrawals) radius *= 2;
+    if (round >= kEqualWithdrawals) radius = wider(radius);
   }
   return settled;
 }

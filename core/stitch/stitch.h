@@ -24,6 +24,8 @@ struct StitchOptions {
   double min_strip_cosine = 0.139;  ///< of the angle to the line of sight (82 degrees)
   double collapse_ratio = 0.45;  ///< zipper: seam edges shorter than this share of a pixel side are
                                  ///< collapsed; 0 turns it off
+  int withdrawal = 0;  ///< pixels; so far around a hole the patch gives way first. 0: its grid
+                       ///< triangles at the pixel of the hole, the least there is
   std::size_t min_component = 30;  ///< pieces of the result with fewer triangles are dropped
   std::uint32_t view = VertexSource::kNoView;  ///< recorded with each new vertex
 };
@@ -65,8 +67,9 @@ struct StitchResult {
 ///   is rolled back, those of the seam first, then those of the patch;
 /// - every pixel that showed the surface shows it (find_lost_pixels()), and every place of it has a
 ///   face within a pixel side (find_lost_places()): where a hole would appear the patch is
-///   withdrawn from it by 2 pixels or as many as reach it, as often as it takes, later by more, at
-///   last altogether; before that, crumbs of `mesh` that it leaves are kept;
+///   withdrawn from it by StitchOptions::withdrawal or as many pixels as reach it, as often as it
+///   takes, later by more, at last altogether; before that, crumbs of `mesh` that it leaves are
+///   kept;
 /// - faces whose image is nowhere near the patch are the same, bit by bit.
 ///
 /// clear_and_fill removes every front-facing old face that overlaps a patch cell within the band

@@ -89,7 +89,7 @@ Patch withdraw_locally(const RangeImage& image, const Patch& patch, std::span<co
   const int farthest = 2 * kMaxRasterExtent;  // places farther than this can wait for others
   Patch rest = patch;
   std::vector<Pixel> left(places.begin(), places.end());
-  for (; radius < farthest && !left.empty(); radius *= 2) {
+  for (; radius < farthest && !left.empty(); radius = wider(radius)) {
     const auto far = std::stable_partition(
         left.begin(), left.end(), [&](Pixel p) { return of_patch.has_place_near(p, radius); });
     rest = withdraw_near(image, rest, {left.begin(), far}, radius);

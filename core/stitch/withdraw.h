@@ -17,9 +17,12 @@ namespace rangezip {
 [[nodiscard]] Patch withdraw_near(const RangeImage& image, const Patch& patch,
                                   std::span<const Pixel> places, int radius);
 
-/// The same, around each place with the least of `radius`, 2 `radius`, 4 `radius`, ... that reaches
-/// the patch: so it gives way where it has to and nowhere else.
-/// @pre radius >= 1
+/// Twice the radius; of 0, 1.
+[[nodiscard]] constexpr int wider(int radius) { return radius > 0 ? 2 * radius : 1; }
+
+/// The same, around each place with the first of `radius`, wider(`radius`), ... that reaches the
+/// patch: so it gives way where it has to and nowhere else.
+/// @pre radius >= 0
 [[nodiscard]] Patch withdraw_locally(const RangeImage& image, const Patch& patch,
                                      std::span<const Pixel> places, int radius);
 

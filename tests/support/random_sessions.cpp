@@ -223,6 +223,7 @@ AddScan make_scan(Random& random, const Scene& scene, double pixel_size, std::ui
                               .max_slope_cosine = 0.2588,
                               .min_component = coin(random, 0.7) ? std::size_t{40} : 3};
   command.stitch.method = coin(random, 0.5) ? StitchMethod::zipper : StitchMethod::clear_and_fill;
+  command.stitch.withdrawal = coin(random, 0.7) ? 0 : 2;
   command.stitch.view = view;
   return command;
 }

@@ -55,6 +55,7 @@ inline std::vector<Command> full_commands(shapes::Random& random) {
   scan.stitch.max_gap = share();
   scan.stitch.min_strip_cosine = share();
   scan.stitch.collapse_ratio = share();
+  scan.stitch.withdrawal = count();
   scan.stitch.min_component = static_cast<std::size_t>(count());
   scan.stitch.view = 7;
   scan.vote = VoteOptions{.pixel_size = share(), .directions = count()};

@@ -392,6 +392,30 @@ TEST_CASE("a patch whose seam would leave a hole is withdrawn from it", "[stitch
   CHECK(withdrawn > 0);
 }
 
+TEST_CASE("a patch gives way by the triangles at the hole, and by as many pixels more as told",
+          "[stitch]") {
+  const StitchMethod method = GENERATE(StitchMethod::clear_and_fill, StitchMethod::zipper);
+  std::size_t withdrawn[3] = {};
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    CAPTURE(seed);
+    shapes::Random random(seed);
+    TriangleMesh mesh = lattice({4.3, 4.4}, 18, 18, 3.0, 20.0);
+    for (Vec3& p : mesh.positions)
+      p.z += random.between(-1.5, 1.5);
+    const Scan scan = hand_scan([&](Pixel) { return 20.0 + random.between(-0.8, 0.8); },
+                                rectangle({15, 15}, {48, 48}), mesh);
+    for (int radius = 0; radius < 3; ++radius) {
+      const StitchResult result = stitch(mesh, scan, {.method = method, .withdrawal = radius});
+      check_mesh(result.mesh);
+      CHECK(lost_between(mesh, result.mesh).empty());
+      withdrawn[radius] += result.report.withdrawn_faces;
+    }
+  }
+  CHECK(withdrawn[0] > 0);
+  CHECK(withdrawn[0] < withdrawn[1]);
+  CHECK(withdrawn[1] < withdrawn[2]);
+}
+
 TEST_CASE("a decimated patch that is withdrawn from a hole stays decimated elsewhere", "[stitch]") {
   std::size_t withdrawn = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
