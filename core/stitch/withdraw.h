@@ -18,7 +18,9 @@ namespace rangezip {
                                   std::span<const Pixel> places, int radius);
 
 /// Twice the radius; of 0, 1.
-[[nodiscard]] constexpr int wider(int radius) { return radius > 0 ? 2 * radius : 1; }
+[[nodiscard]] constexpr int wider(int radius) {
+  return radius > 0 ? 2 * radius : 1;
+}
 
 /// The same, around each place with the first of `radius`, wider(`radius`), ... that reaches the
 /// patch: so it gives way where it has to and nowhere else.
