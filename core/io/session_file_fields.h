@@ -162,7 +162,7 @@ void describe(Fields& f, StitchOptions& options) {
            "strip triangles with a smaller cosine to the line of sight stay open");
   f.number("collapse_ratio", collapse_ratio, kNotNegative,
            "zipper: seam edges shorter than this share of a pixel side are collapsed; 0: none");
-  f.integer("withdrawal", withdrawal, {0, kMaxRasterExtent},
+  f.integer("withdrawal", withdrawal, {0, 64},
             "pixels around a hole by which the patch gives way first; 0: its triangles there");
   f.integer("min_component", min_component, kCount,
             "triangles; smaller pieces of the result are dropped");

@@ -24,8 +24,8 @@ struct StitchOptions {
   double min_strip_cosine = 0.139;  ///< of the angle to the line of sight (82 degrees)
   double collapse_ratio = 0.45;  ///< zipper: seam edges shorter than this share of a pixel side are
                                  ///< collapsed; 0 turns it off
-  int withdrawal = 0;  ///< pixels; so far around a hole the patch gives way first. 0: its grid
-                       ///< triangles at the pixel of the hole, the least there is
+  int withdrawal = 0;  ///< pixels, not negative; so far around a hole the patch gives way first.
+                       ///< 0: its grid triangles at the pixel of the hole, the least there is
   std::size_t min_component = 30;  ///< pieces of the result with fewer triangles are dropped
   std::uint32_t view = VertexSource::kNoView;  ///< recorded with each new vertex
 };
