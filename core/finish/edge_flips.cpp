@@ -118,11 +118,12 @@ std::size_t flip_for_valence(CornerTable& table, const std::vector<Vec3>& positi
     return difference * difference;
   };
   const auto is_better = [&](const Diamond& d) {
-    const double before = angle_before_flip(positions, d);
-    const double after = angle_after_flip(positions, d);
-    const bool mends = before < kSmallAngle && after >= before + kGain;
     const bool is_more_regular = off(d.a, -1) + off(d.b, -1) + off(d.x, 1) + off(d.y, 1) <
                                  off(d.a, 0) + off(d.b, 0) + off(d.x, 0) + off(d.y, 0);
+    const double before = angle_before_flip(positions, d);
+    if (!is_more_regular && before >= kSmallAngle) return false;  // as for most edges
+    const double after = angle_after_flip(positions, d);
+    const bool mends = before < kSmallAngle && after >= before + kGain;
     if (!mends && !(is_more_regular && after >= std::min(before, kSmallAngle))) return false;
     return keeps_sides(positions, d);
   };

@@ -33,11 +33,12 @@ struct SideSums {
 
   /// @param p in radii
   void add(const Vec3& p, double height) {
+    ++count;
+    const double weight = 1.0 - glm::dot(p, p);
+    if (!(weight > 0.0)) return;
     const Vec3 row{1.0, glm::dot(u, p), glm::dot(v, p)};
-    const double weight = std::max(0.0, 1.0 - glm::dot(p, p));
     products += weight * glm::outerProduct(row, row);
     right -= weight * height * row;
-    ++count;
   }
 
   void apply(SurfaceHeight& height, double radius) const {
@@ -52,15 +53,20 @@ struct SideSums {
   }
 };
 
-/// The index of the side that a point lies on; as many as there are if it lies on none.
-std::size_t side_of(const Vec3& p, const std::vector<FeatureSide>& sides, double farthest) {
-  std::size_t nearest = sides.size();
+/// The side that a point lies on, and how high it lies over that.
+struct OnSide {
+  std::size_t side = 0;  ///< as many as there are if it lies on none
+  double height = 0.0;
+};
+
+OnSide side_of(const Vec3& p, const std::vector<FeatureSide>& sides, double farthest) {
+  OnSide nearest{sides.size()};
   double least = farthest;
   for (std::size_t i = 0; i < sides.size(); ++i) {
-    const double distance = std::abs(sides[i].height.at(p));
-    if (distance >= least) continue;
-    least = distance;
-    nearest = i;
+    const double height = sides[i].height.at(p);
+    if (std::abs(height) >= least) continue;
+    least = std::abs(height);
+    nearest = {i, height};
   }
   return nearest;
 }
@@ -69,13 +75,15 @@ std::size_t side_of(const Vec3& p, const std::vector<FeatureSide>& sides, double
 
 std::vector<FeatureSide> refit_sides(const Surroundings& around) {
   const double radius = kRadius * around.radius;
+  std::vector<Vec3> points;
+  around.cloud.for_each_near(around.origin, radius, [&](const Vec3& p) { points.push_back(p); });
   std::vector<FeatureSide> sides = around.sides;
   for (int round = 0; round < kRounds; ++round) {
     std::vector<SideSums> sums(sides.begin(), sides.end());
-    around.cloud.for_each_near(around.origin, radius, [&](const Vec3& p) {
-      const std::size_t i = side_of(p, sides, kHeight * around.pixel_size);
-      if (i < sides.size()) sums[i].add(p / radius, sides[i].height.at(p));
-    });
+    for (const Vec3& p : points) {
+      const auto [i, height] = side_of(p, sides, kHeight * around.pixel_size);
+      if (i < sides.size()) sums[i].add(p / radius, height);
+    }
     for (std::size_t i = 0; i < sides.size(); ++i)
       sums[i].apply(sides[i].height, radius);
   }

@@ -16,7 +16,6 @@
 namespace rangezip {
 namespace {
 
-constexpr int kRounds = 2;        ///< of {snap, cut out and close what crosses}
 constexpr int kReachRounds = 3;   ///< of {bring rims out, snap again around}
 constexpr int kRoundsAround = 4;  ///< of snapping again, without what crosses
 /// Edges around what has changed: so far vertices are snapped again, and so far features and clean
@@ -29,19 +28,6 @@ void add_changes(const SnapReport& snapped, FinishReport& report) {
   report.split_edges += snapped.split_edges;
   report.collapsed_edges += snapped.collapsed_edges;
   report.flipped_edges += snapped.flipped_edges;
-}
-
-void snap(TriangleMesh& mesh, const PointGrid& cloud, const SnapOptions& snapping,
-          const FinishOptions& options, FinishReport& report, const Progress& progress) {
-  for (int round = 0; round < kRounds; ++round) {
-    const TriangleMesh clean = geometry_of(mesh);
-    const SnapReport snapped = snap_features(mesh, cloud, snapping, progress);
-    report.snapped_vertices = std::max(report.snapped_vertices, snapped.snapped_vertices);
-    add_changes(snapped, report);
-    if (snapped.snapped_vertices == 0) return;
-    const std::vector<std::uint32_t> changed = find_face_changes(clean, mesh).made;
-    if (!separate(mesh, changed, cloud, options, report, progress)) return;
-  }
 }
 
 /// Whether a mesh is oriented and manifold: what was done to a part must fit the rest.
@@ -78,6 +64,19 @@ void snap_around(TriangleMesh& mesh, std::span<const std::uint32_t> came, const 
       if (crosses[v] != 0) may_move[v] = 0;
     }
   }
+}
+
+void snap(TriangleMesh& mesh, const PointGrid& cloud, const SnapOptions& snapping,
+          const FinishOptions& options, FinishReport& report, const Progress& progress) {
+  const TriangleMesh clean = geometry_of(mesh);
+  const SnapReport snapped = snap_features(mesh, cloud, snapping, progress);
+  report.snapped_vertices = snapped.snapped_vertices;
+  add_changes(snapped, report);
+  if (snapped.snapped_vertices == 0) return;
+  const TriangleMesh sharp = geometry_of(mesh);
+  const std::vector<std::uint32_t> changed = find_face_changes(clean, mesh).made;
+  if (!separate(mesh, changed, cloud, options, report, progress)) return;
+  snap_around(mesh, find_new_faces(sharp, mesh), cloud, snapping, report, progress);
 }
 
 }  // namespace

@@ -8,13 +8,13 @@
 
 namespace rangezip {
 
-/// Makes edges, corners and rims sharp: moves vertices onto features (core/finish/snap_features.h),
-/// and where something crosses then, once more after it was cut out and closed; brings rims out to
-/// where the cloud has points (core/finish/reach_points.h), and snaps again what is within three
-/// edges of that, both twice; and brings out once more what snapping has taken back. Snapping
-/// again cuts nothing out: where faces cross it is done anew without the vertices around, and after
-/// four times left as it is. Without self-intersections before there are none after. Adds to the
-/// counts of `report`.
+/// Makes edges, corners and rims sharp: moves vertices onto features (core/finish/snap_features.h);
+/// cuts out and closes what crosses then; brings rims out to where the cloud has points
+/// (core/finish/reach_points.h), twice, and brings out once more what snapping has taken back.
+/// After each of these but the last it snaps again what is within three edges of what changed.
+/// Snapping again cuts nothing out: where faces cross it is done anew without the vertices around,
+/// and after four times left as it is. Without self-intersections before there are none after. Adds
+/// to the counts of `report`.
 /// @pre oriented, manifold (core/finish/clean_topology.h)
 void sharpen(TriangleMesh& mesh, const PointGrid& cloud, const SnapOptions& snapping,
              const FinishOptions& options, FinishReport& report, const Progress& progress);

@@ -13,6 +13,7 @@ namespace {
 
 /// In h: how far from a face the points next to it may be.
 constexpr double kFarthest = 6.0;
+constexpr double kUsual = 1.5;          ///< in h: mostly they are nearer than this
 constexpr std::size_t kNeighbors = 16;  ///< that tell the spacing, as in core/plan/spacing.h
 /// No point of a surface is as far from its points.
 constexpr SupportReach kBeyondDoubt{.pixels = 1.25, .spacings = 2.0};
@@ -32,6 +33,12 @@ std::optional<Vec3> nearest_within(const PointGrid& cloud, const Vec3& place, do
   return nearest;
 }
 
+/// The nearest point, if there is one within kFarthest.
+std::optional<Vec3> nearest_point(const PointGrid& cloud, const Vec3& place, double pixel_size) {
+  std::optional<Vec3> nearest = nearest_within(cloud, place, kUsual * pixel_size);
+  return nearest ? nearest : nearest_within(cloud, place, kFarthest * pixel_size);
+}
+
 /// Mean distance of neighbours on the surface around a point, or nothing if they are farther apart
 /// than `radius` lets see.
 std::optional<double> spacing_at(const PointGrid& cloud, const Vec3& point, double radius) {
@@ -42,6 +49,16 @@ std::optional<double> spacing_at(const PointGrid& cloud, const Vec3& point, doub
   const auto last = squares.begin() + kNeighbors;
   std::nth_element(squares.begin(), last, squares.end());
   return std::sqrt(*last * kPi / static_cast<double>(kNeighbors));
+}
+
+/// Whether spacing_at() a point, if it is told, is at least `spacing`: asks fewer points.
+bool is_spaced(const PointGrid& cloud, const Vec3& point, double spacing, double radius) {
+  const double distance = spacing * std::sqrt(static_cast<double>(kNeighbors) / kPi);
+  std::size_t nearer = 0;
+  cloud.for_each_near(point, std::min(distance, radius), [&](const Vec3& offset) {
+    nearer += glm::dot(offset, offset) < distance * distance ? 1 : 0;
+  });
+  return nearer <= kNeighbors;  // the point itself is among them
 }
 
 bool has_long_side(const TriangleMesh& mesh, const Triangle& face, double length) {
@@ -70,11 +87,10 @@ std::size_t drop_faces(TriangleMesh& mesh, const IsDropped& is_dropped) {
 bool is_supported(const PointGrid& cloud, const Vec3& place, double pixel_size,
                   const SupportReach& reach) {
   if (cloud.has_point_within(place, reach.pixels * pixel_size)) return true;
-  const double farthest = kFarthest * pixel_size;
-  const std::optional<Vec3> nearest = nearest_within(cloud, place, farthest);
+  const std::optional<Vec3> nearest = nearest_point(cloud, place, pixel_size);
   if (!nearest) return false;
-  const std::optional<double> spacing = spacing_at(cloud, *nearest, farthest);
-  return !spacing || glm::length(*nearest - place) <= reach.spacings * *spacing;
+  return is_spaced(cloud, *nearest, glm::length(*nearest - place) / reach.spacings,
+                   kFarthest * pixel_size);
 }
 
 bool is_supported(const PointGrid& cloud, const TriangleMesh& mesh, const Triangle& face,
@@ -88,9 +104,8 @@ bool is_supported(const PointGrid& cloud, const TriangleMesh& mesh, const Triang
 }
 
 std::optional<double> spacing_near(const PointGrid& cloud, const Vec3& place, double pixel_size) {
-  const double farthest = kFarthest * pixel_size;
-  const std::optional<Vec3> nearest = nearest_within(cloud, place, farthest);
-  return nearest ? spacing_at(cloud, *nearest, farthest) : std::nullopt;
+  const std::optional<Vec3> nearest = nearest_point(cloud, place, pixel_size);
+  return nearest ? spacing_at(cloud, *nearest, kFarthest * pixel_size) : std::nullopt;
 }
 
 std::size_t drop_unsupported_faces(TriangleMesh& mesh, std::span<const Vec3> cloud,
