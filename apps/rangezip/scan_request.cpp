@@ -97,13 +97,14 @@ void add_pass_options(CLI::App& command, ScanChoices& choices) {
   add_switch(command, "see-through", choices.see_through,
              "Remove samples seen through gaps of a nearer sheet, and outliers");
   add_switch(command, "vote", choices.vote,
-             "Remove samples that show the inside of a surface, by how its points are seen from "
-             "all around");
+             "For --plane-fit: remove samples that show the inside of a surface, by how its points "
+             "are seen from all around");
   add_switch(command, "plane-fit", choices.plane_fit,
              "Fit a plane to the points around each pixel instead of taking the nearest");
   add_switch(command, "fill-holes", choices.fill_holes, "Fill gaps of the sampling by averages");
   add_switch(command, "median", choices.median, "Edge-preserving median filter");
-  add_count(command, "--median-radius", choices.median_radius, 1, 50, "For --median: pixels [1]");
+  add_count(command, "--median-radius", choices.median_radius, 1, MedianFilterOptions::kMostRadius,
+            "For --median: pixels [1]");
   add_switch(command, "steep-cells", choices.steep_cells, "Leave out samples seen on edge");
   add_parsed(command, "--steep-cosine", choices.steep_cosine, parse_positive,
              "For --steep-cells: smallest cosine between normal and line of sight [0.2588]",
@@ -213,9 +214,11 @@ void choose_passes(AddScan& command, const ScanChoices& choices, double pixel_si
   choose(scan.back_side, choices.back_side);
   set(scan.back_side, &BackSideOptions::min_gap, choices.min_gap, "--min-gap", "--back-side");
   choose(scan.see_through, choices.see_through);
-  choose(command.vote, choices.vote);
-  if (command.vote) command.vote->pixel_size = pixel_size;
   choose(scan.plane_fit, choices.plane_fit);
+  choose(command.vote, choices.vote);
+  if (!scan.plane_fit) command.vote.reset();
+  if (!scan.plane_fit && choices.vote == true) throw UsageError("--vote: needs --plane-fit");
+  if (command.vote) command.vote->pixel_size = pixel_size;
   choose(scan.fill_holes, choices.fill_holes);
   choose(scan.median, choices.median);
   set(scan.median, &MedianFilterOptions::radius, choices.median_radius, "--median-radius",

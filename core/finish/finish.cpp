@@ -5,11 +5,10 @@
 #include <cstdint>
 #include <numeric>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "core/base/error.h"
+#include "core/base/check_number.h"
 #include "core/finish/air_bridges.h"
 #include "core/finish/boundary_loops.h"
 #include "core/finish/clean_topology.h"
@@ -84,12 +83,19 @@ constexpr int kCoarsenRounds = 3;  ///< again, where triangles crossed
 constexpr double kHardlyNoise = 0.03;
 /// In h: how far beyond the mesh points may matter.
 constexpr double kRegionMargin = 4.0;
+/// Of the time of a full finish of closed models: when parts of it begin.
+constexpr double kGrowShare = 0.1;
+constexpr double kHandlesShare = 0.25;
+constexpr double kImproveShare = 0.3;
+constexpr double kSharpenShare = 0.55;
+constexpr double kFitShare = 0.8;
 
 void check(const FinishOptions& options) {
-  if (!(options.pixel_size > 0.0) || !std::isfinite(options.pixel_size)) {
-    throw InvalidArgument("finish: pixel_size must be positive and finite, got " +
-                          std::to_string(options.pixel_size));
-  }
+  check_positive("finish: pixel_size", options.pixel_size);
+  check_not_negative("finish: max_hole_perimeter", options.max_hole_perimeter);
+  check_not_negative("finish: narrow_width", options.narrow_width);
+  check_not_negative("finish: flat_tolerance", options.flat_tolerance);
+  check_not_negative("finish: gap", options.gap);
 }
 
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
@@ -246,6 +252,7 @@ void remove_thin_handles(TriangleMesh& mesh, const PointGrid& cloud, const Finis
     thin.cloud = {&cloud, h};
   }
   for (int round = 0; round < kHandleRounds; ++round) {
+    progress.check_stop();
     const SettledLoops settled = options.open_sheet ? SettledLoops(mesh) : SettledLoops();
     const std::size_t cut = cut_thin_handles(mesh, thin);
     if (cut == 0) return;
@@ -429,6 +436,7 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
   report.unfolded += unfold(mesh, cloud, {h, fit.noise});
   fit_vertices(mesh, surface, fit, progress);
   separate(mesh, all_faces(mesh), cloud, options, report, progress);
+  progress.at("finish", kSharpenShare);
   if (options.snap_features) {
     sharpen(mesh, cloud, {.pixel_size = h, .fit = fit, .sizes = scale.sizes, .edge = scale.edge},
             options, report, progress);
@@ -436,6 +444,8 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
   mend_slivers(mesh, cloud, options, report, progress);
   extend(mesh, cloud, 0.0, options, report, progress);
   report.unfolded += unfold(mesh, cloud, {h, fit.noise});
+  progress.at("finish", kFitShare);
+  if (mesh.empty()) return;  // all of it was a scrap
   if (is_coarsened) {
     coarsen_to_cloud(mesh, cloud, options, report, progress);
   } else {
@@ -465,14 +475,17 @@ FinishResult finish(TriangleMesh mesh, const SeenPoints& cloud, const FinishOpti
   result.report.papered_faces += drop_papered_faces(mesh, points, cloud, h);
   if (!cloud.votes.empty())
     result.report.papered_faces += drop_air_bridges(mesh, points, h, options.min_component);
+  progress.at("finish", kGrowShare);
   const TriangleMesh before = without_small_pieces(mesh, options);
   grow_in_one(mesh, {given ? &*given : nullptr, cloud, points, options, progress}, result.report);
   given.reset();
+  progress.at("finish", kHandlesShare);
   remove_thin_handles(mesh, points, options, result.report, progress);
   take_back_vanished(mesh, before, points, h);
   zip_open_loops(mesh, points, options, result.report);
   if (options.max_hole_perimeter == 0.0)
     result.report.papered_faces += drop_papered_faces(mesh, points, cloud, h, kSmallPerimeter * h);
+  progress.at("finish", kImproveShare);
   if (options.method == FinishMethod::full && !mesh.empty()) {
     if (options.gap == 0.0) tell_sides(points, mesh, h);  // contours are too far apart for that
     improve(mesh, points, options, result.report, progress);

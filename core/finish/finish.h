@@ -83,7 +83,8 @@ struct FinishResult {
 /// @param cloud the points that were scanned (and area samples of polygons), to which vertices are
 ///     fitted and which give evidence; may be empty: no fitting. Without votes no face is
 ///     contradicted.
-/// @throws InvalidArgument if pixel_size is not positive and finite.
+/// @throws InvalidArgument if pixel_size is not positive and finite, or another length is negative
+///     or not finite.
 [[nodiscard]] FinishResult finish(TriangleMesh mesh, const SeenPoints& cloud,
                                   const FinishOptions& options, const Progress& progress = {});
 

@@ -1,12 +1,10 @@
 #include "core/finish/hole_filling.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <string>
 #include <utility>
 
-#include "core/base/error.h"
+#include "core/base/check_number.h"
 #include "core/finish/clean_topology.h"
 #include "core/finish/fill_patch.h"
 #include "core/finish/loop_triangulation.h"
@@ -18,10 +16,21 @@ namespace {
 /// Holes around which fewer edges fit need no new points.
 constexpr double kMinEdgesToRefine = 10.5;
 
+/// In lengths of the loop.
+constexpr double kShortestEdge = 0.001;
+
+double perimeter_of(const std::vector<Vec3>& loop) {
+  double perimeter = 0.0;
+  for (std::size_t i = 0; i < loop.size(); ++i)
+    perimeter += glm::length(loop[(i + 1) % loop.size()] - loop[i]);
+  return perimeter;
+}
+
 /// Per point of the loop the length asked for, or the mean of its two edges.
 std::vector<double> scales_of(const std::vector<Vec3>& loop, double edge_length) {
   const std::size_t n = loop.size();
-  std::vector<double> scales(n, edge_length);
+  const double least = perimeter_of(loop) * std::min(kShortestEdge, 1.0 / static_cast<double>(n));
+  std::vector<double> scales(n, std::max(edge_length, least));
   for (std::size_t i = 0; i < n && edge_length == 0.0; ++i) {
     const double before = glm::length(loop[i] - loop[(i + n - 1) % n]);
     const double after = glm::length(loop[(i + 1) % n] - loop[i]);
@@ -32,13 +41,8 @@ std::vector<double> scales_of(const std::vector<Vec3>& loop, double edge_length)
 
 /// As many edges of the loop or of the length asked for that new points are worth it.
 bool is_worth_refining(const LoopShape& loop, double edge_length) {
-  const std::size_t n = loop.points.size();
-  if (static_cast<double>(n) > kMinEdgesToRefine) return true;
-  double perimeter = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    perimeter += glm::length(loop.points[(i + 1) % n] - loop.points[i]);
-  }
-  return edge_length > 0.0 && perimeter > kMinEdgesToRefine * edge_length;
+  if (static_cast<double>(loop.points.size()) > kMinEdgesToRefine) return true;
+  return edge_length > 0.0 && perimeter_of(loop.points) > kMinEdgesToRefine * edge_length;
 }
 
 LoopSurroundings surroundings_of(const std::vector<Vec3>& positions, const CornerTable& table,
@@ -113,14 +117,8 @@ void append_fill(TriangleMesh& mesh, const HoleFill& fill, std::size_t base) {
 }
 
 FilledMesh fill_mesh_holes(TriangleMesh mesh, double edge_length, double max_perimeter) {
-  if (!(edge_length >= 0.0) || !std::isfinite(edge_length)) {
-    throw InvalidArgument("fill_mesh_holes: edge_length must be finite and not negative, got " +
-                          std::to_string(edge_length));
-  }
-  if (!(max_perimeter >= 0.0) || !std::isfinite(max_perimeter)) {
-    throw InvalidArgument("fill_mesh_holes: max_perimeter must be finite and not negative, got " +
-                          std::to_string(max_perimeter));
-  }
+  check_not_negative("fill_mesh_holes: edge_length", edge_length);
+  check_not_negative("fill_mesh_holes: max_perimeter", max_perimeter);
   clean_topology(mesh);
   std::vector<FillRequest> requests;
   const CornerTable table(mesh.triangles, mesh.positions.size());

@@ -9,7 +9,8 @@
 
 namespace rangezip {
 
-TriangleMesh laplacian_smooth(TriangleMesh mesh, int iterations, double factor) {
+TriangleMesh laplacian_smooth(TriangleMesh mesh, int iterations, double factor,
+                              const Progress& progress) {
   if (iterations < 0) {
     throw InvalidArgument("laplacian_smooth: iterations must not be negative, got " +
                           std::to_string(iterations));
@@ -23,6 +24,7 @@ TriangleMesh laplacian_smooth(TriangleMesh mesh, int iterations, double factor) 
   const CornerTable table(mesh.triangles, mesh.positions.size());
   std::vector<Vec3> moved = mesh.positions;
   for (int i = 0; i < iterations; ++i) {
+    progress.at("smooth", static_cast<double>(i) / iterations);
     parallel_for(moved.size(), kVerticesPerBlock, [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) {
         const auto vertex = static_cast<std::uint32_t>(v);

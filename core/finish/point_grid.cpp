@@ -134,6 +134,7 @@ PointGrid PointGrid::thinned(int parts) const {
 }
 
 std::vector<Vec3> PointGrid::points(std::size_t most) const {
+  if (most == 0) return {};
   const std::size_t step = std::max<std::size_t>(1, (positions_.size() + most - 1) / most);
   std::vector<Vec3> points;
   points.reserve(positions_.size() / step + 1);

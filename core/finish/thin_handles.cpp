@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/parallel.h"
+#include "core/base/spread.h"
 #include "core/finish/boundary_loops.h"
 #include "core/finish/components.h"
 #include "core/finish/corner_table.h"
@@ -21,12 +22,9 @@ namespace {
 
 constexpr std::uint32_t kNone = CornerTable::kNone;
 
-/// A well mixed word for each number (splitmix64): sums of different ones never cancel.
+/// A well mixed word for each number: sums of different ones never cancel.
 std::uint64_t word_of(std::uint64_t number) {
-  std::uint64_t z = (number + 1) * 0x9e37'79b9'7f4a'7c15U;
-  z = (z ^ (z >> 30U)) * 0xbf58'476d'1ce4'e5b9U;
-  z = (z ^ (z >> 27U)) * 0x94d0'49bb'1331'11ebU;
-  return z ^ (z >> 31U);
+  return scrambled_bits(number * 0x9e37'79b9'7f4a'7c15U);
 }
 
 /// Calls visit(neighbour, half-edge between the two) for the edges at a vertex: for an inner one

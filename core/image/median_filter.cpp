@@ -40,8 +40,9 @@ double median_around(const RangeImage& image, Pixel pixel, const MedianFilterOpt
 }  // namespace
 
 RangeImage median_filter(const RangeImage& image, const MedianFilterOptions& options) {
-  if (options.radius < 1) {
-    throw InvalidArgument("median_filter: radius must be at least 1, got " +
+  if (options.radius < 1 || options.radius > MedianFilterOptions::kMostRadius) {
+    throw InvalidArgument("median_filter: radius must lie in 1.." +
+                          std::to_string(MedianFilterOptions::kMostRadius) + ", got " +
                           std::to_string(options.radius));
   }
   if (!(options.max_step > 0.0)) {

@@ -34,6 +34,8 @@ struct IntegerRule {
 
 inline constexpr IntegerRule kCount{};
 inline constexpr IntegerRule kAtLeastOne{.minimum = 1};
+/// In which nothing is left to change, or all of it has changed.
+inline constexpr IntegerRule kRounds{.maximum = 10'000};
 
 template <class Enum>
 using Choice = std::pair<std::string_view, Enum>;
@@ -74,17 +76,17 @@ void describe(Fields& f, FillHolesOptions& options) {
   auto& [min_neighbours, rounds, max_step, reach] = options;
   f.integer("min_neighbours", min_neighbours, {1, 8},
             "of the eight, that must have a sample for a pixel to be filled");
-  f.integer("rounds", rounds, kCount, "a round fills what the one before made fillable");
+  f.integer("rounds", rounds, kRounds, "a round fills what the one before made fillable");
   f.number("max_step", max_step, kPositive,
            "pixel sides of depth; neighbours beyond a larger step belong to another sheet");
-  f.integer("reach", reach, kCount,
+  f.integer("reach", reach, {0, kMaxRasterExtent},
             "pixels; lines between samples no farther apart are filled first; 0: none");
 }
 
 template <class Fields>
 void describe(Fields& f, MedianFilterOptions& options) {
   auto& [radius, max_step] = options;
-  f.integer("radius", radius, kAtLeastOne, "pixels");
+  f.integer("radius", radius, {1, MedianFilterOptions::kMostRadius}, "pixels");
   f.number("max_step", max_step, kPositive,
            "pixel sides of depth; neighbours farther away do not take part");
 }
@@ -121,8 +123,8 @@ void describe(Fields& f, QualityMaskOptions& options) {
 template <class Fields>
 void describe(Fields& f, CleanMaskOptions& options) {
   auto& [erosions, dilations] = options;
-  f.integer("erosions", erosions, kCount, "rounds");
-  f.integer("dilations", dilations, kCount, "rounds, after the erosions, inside the region");
+  f.integer("erosions", erosions, kRounds, "rounds");
+  f.integer("dilations", dilations, kRounds, "rounds, after the erosions, inside the region");
 }
 
 template <class Fields>
@@ -141,7 +143,8 @@ void describe(Fields& f, DecimateOptions& options) {
   auto& [tolerance, max_block] = options;
   f.number("tolerance", tolerance, kNotNegative,
            "pixel sides along the line of sight, of every sample from its triangle");
-  f.integer("max_block", max_block, kAtLeastOne, "cells along the side of the largest blocks");
+  f.integer("max_block", max_block, {1, kMaxRasterExtent},
+            "cells along the side of the largest blocks");
 }
 
 template <class Fields>
@@ -155,14 +158,15 @@ void describe(Fields& f, StitchOptions& options) {
   f.number("band", band, kPositive,
            "half width, in pixel sides times the stretch of the slope, in which old surface counts "
            "as covered");
-  f.number("clearance", clearance, kNotNegative,
+  f.number("clearance", clearance, {.minimum = 0.0, .maximum = StitchOptions::kMostPixels},
            "pixels; old vertices closer to the patch are removed");
-  f.number("max_gap", max_gap, kPositive, "pixels; longest edge of a strip triangle");
+  f.number("max_gap", max_gap, {.exclusive_minimum = 0.0, .maximum = StitchOptions::kMostPixels},
+           "pixels; longest edge of a strip triangle");
   f.number("min_strip_cosine", min_strip_cosine, kCosine,
            "strip triangles with a smaller cosine to the line of sight stay open");
   f.number("collapse_ratio", collapse_ratio, kNotNegative,
            "zipper: seam edges shorter than this share of a pixel side are collapsed; 0: none");
-  f.integer("withdrawal", withdrawal, {0, 64},
+  f.integer("withdrawal", withdrawal, {0, StitchOptions::kMostPixels},
             "pixels around a hole by which the patch gives way first; 0: its triangles there");
   f.integer("min_component", min_component, kCount,
             "triangles; smaller pieces of the result are dropped");
@@ -213,7 +217,8 @@ void describe(Fields& f, AddScan& command) {
   auto& [scan, stitch, vote] = command;
   describe(f, scan);
   f.object("stitch", stitch, "how the patch joins the mesh");
-  f.optional("vote", vote, "removes samples that show the inside of the surface; null: not run");
+  f.optional("vote", vote,
+             "with plane_fit, removes samples that show the inside of the surface; null: not run");
 }
 
 template <class Fields>
@@ -235,7 +240,7 @@ void describe(Fields& f, ErasePlaces& command) {
 template <class Fields>
 void describe(Fields& f, SmoothMesh& command) {
   auto& [iterations, factor] = command;
-  f.integer("iterations", iterations, kAtLeastOne, "rounds");
+  f.integer("iterations", iterations, {1, kRounds.maximum}, "rounds");
   f.number("factor", factor, kShare, "share of the way to the mean of the neighbours");
 }
 
@@ -243,7 +248,7 @@ template <class Fields>
 void describe(Fields& f, FillMeshHoles& command) {
   auto& [pixel_size, max_perimeter] = command;
   f.number("pixel_size", pixel_size, kNotNegative,
-           "least length of new edges, model units; longer where the edges around the hole are");
+           "length of new edges, model units; 0: as long as those around the hole");
   f.limit("max_perimeter", max_perimeter, "model units; longer loops stay open; null: no limit");
 }
 
@@ -270,8 +275,8 @@ void describe(Fields& f, FinishMesh& command) {
            "pixel sizes; loops up to this are closed even where no points show a surface");
   f.number("narrow_width", narrow_width, kNotNegative,
            "pixel sizes; loops whose sides face each other within this are always closed");
-  f.integer("rounds", rounds, kCount, "of removing self-intersections and closing, at most");
-  f.integer("relaxations", relaxations, kCount, "rounds of improving the triangles");
+  f.integer("rounds", rounds, kRounds, "of removing self-intersections and closing, at most");
+  f.integer("relaxations", relaxations, kRounds, "rounds of improving the triangles");
   f.integer("triangles", triangles, kCount,
             "how many there are to be, met within a few percent; 0: as many as come");
   f.number("flat_tolerance", flat_tolerance, kNotNegative,

@@ -34,7 +34,7 @@ double read_number(const Json& json, const std::string& pointer, const NumberRul
   const double value = json.is_number() ? json.get<double>() : std::nan("");
   const bool is_in_range = std::isfinite(value) && value >= rule.minimum.value_or(value) &&
                            value <= rule.maximum.value_or(value) &&
-                           !(value <= rule.exclusive_minimum.value_or(value - 1.0));
+                           !(rule.exclusive_minimum && value <= *rule.exclusive_minimum);
   if (!is_in_range) refuse(pointer, rule_text(rule), json);
   return value;
 }

@@ -1,10 +1,9 @@
 #include "core/mask/correspondence.h"
 
 #include <algorithm>
-#include <cmath>
-#include <string>
 #include <utility>
 
+#include "core/base/check_number.h"
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/image/depth_units.h"
@@ -75,14 +74,8 @@ Correspondence find_correspondence(Rasterizer& rasterizer, const RangeImage& ima
   if (slopes.extent() != image.extent()) {
     throw InvalidArgument("find_correspondence: image and slopes must have the same extent");
   }
-  if (!(options.band > 0.0) || !std::isfinite(options.band)) {
-    throw InvalidArgument("find_correspondence: band must be positive and finite, got " +
-                          std::to_string(options.band));
-  }
-  if (!(options.back_band >= 0.0) || !std::isfinite(options.back_band)) {
-    throw InvalidArgument("find_correspondence: back_band must be finite and not negative, got " +
-                          std::to_string(options.back_band));
-  }
+  check_positive("find_correspondence: band", options.band);
+  check_not_negative("find_correspondence: back_band", options.back_band);
   if (mesh.empty()) {
     return {.face = Grid<PrimitiveId>(image.extent(), kNoPrimitive),
             .from_behind = Mask(image.extent(), 0)};

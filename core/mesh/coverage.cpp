@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <vector>
 
-#include "core/base/error.h"
+#include "core/base/check_number.h"
 #include "core/base/parallel.h"
 
 namespace rangezip {
@@ -150,10 +148,7 @@ class FaceGrid {
 
 std::vector<std::uint8_t> covered_points(std::span<const Vec3> points, const TriangleMesh& mesh,
                                          double distance) {
-  if (!(distance > 0.0) || !std::isfinite(distance)) {
-    throw InvalidArgument("covered_points: distance must be positive and finite, got " +
-                          std::to_string(distance));
-  }
+  check_positive("covered_points: distance", distance);
   std::vector<std::uint8_t> covered(points.size(), 0);
   if (points.empty() || mesh.triangles.empty()) return covered;
 

@@ -1,10 +1,10 @@
 #include "core/mesh/places.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <string>
 
+#include "core/base/check_number.h"
 #include "core/base/cubes.h"
 #include "core/base/disjoint_sets.h"
 #include "core/base/error.h"
@@ -13,10 +13,7 @@ namespace rangezip {
 namespace {
 
 void check(std::span<const Vec3> points, std::span<const double> areas, double reach) {
-  if (!(reach > 0.0) || !std::isfinite(reach)) {
-    throw InvalidArgument("places_of: reach must be positive and finite, got " +
-                          std::to_string(reach));
-  }
+  check_positive("places_of: reach", reach);
   if (points.size() != areas.size()) {
     throw InvalidArgument("places_of: there must be as many areas as points, got " +
                           std::to_string(areas.size()) + " for " + std::to_string(points.size()));

@@ -8,8 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "core/base/check_number.h"
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/raster/rasterizer.h"
 
 namespace rangezip {
 
@@ -30,13 +32,10 @@ struct Block {
 };
 
 void check(const DecimateOptions& options) {
-  if (!(options.tolerance >= 0.0) || !std::isfinite(options.tolerance)) {
-    throw InvalidArgument("decimate: tolerance must be finite and not negative, got " +
-                          std::to_string(options.tolerance));
-  }
-  if (options.max_block < 1) {
-    throw InvalidArgument("decimate: max_block must be at least 1, got " +
-                          std::to_string(options.max_block));
+  check_not_negative("decimate: tolerance", options.tolerance);
+  if (options.max_block < 1 || options.max_block > kMaxRasterExtent) {
+    throw InvalidArgument("decimate: max_block must lie in 1.." + std::to_string(kMaxRasterExtent) +
+                          ", got " + std::to_string(options.max_block));
   }
 }
 

@@ -8,8 +8,8 @@ namespace rangezip {
 struct DecimateOptions {
   double tolerance = 0.05;  ///< in pixel sides along the line of sight, not negative: no sample is
                             ///< farther from the triangle that covers it
-  int max_block = 32;       ///< cells along the side of the largest blocks, at least 1; the largest
-                            ///< power of 2 that is no more counts
+  int max_block = 32;       ///< cells along the side of the largest blocks, 1 to kMaxRasterExtent;
+                            ///< the largest power of 2 that is no more counts
 };
 
 /// Merges cells of the pixel grid where the range image is flat: the decimation that

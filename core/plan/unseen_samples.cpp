@@ -1,11 +1,9 @@
 #include "core/plan/unseen_samples.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <string>
 
-#include "core/base/error.h"
+#include "core/base/check_number.h"
 #include "core/plan/directions.h"
 #include "core/plan/front_sheet.h"
 #include "core/plan/spacing.h"
@@ -29,10 +27,7 @@ struct Unseen {
 std::vector<std::uint8_t> unseen_samples(Rasterizer& rasterizer, const Scene& scene,
                                          std::span<const Vec3> samples, double pixel_size,
                                          const Progress& progress) {
-  if (!(pixel_size > 0.0) || !std::isfinite(pixel_size)) {
-    throw InvalidArgument("unseen_samples: pixel_size must be positive and finite, got " +
-                          std::to_string(pixel_size));
-  }
+  check_positive("unseen_samples: pixel_size", pixel_size);
   const Box bounds = robust_bounds(scene);
   const double side = std::max(kFiner * pixel_size, bounds.diagonal() / kMostPixelsAcross);
   const Vec3 middle = bounds.center();

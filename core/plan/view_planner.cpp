@@ -8,6 +8,7 @@
 #include <numeric>
 #include <string>
 
+#include "core/base/check_number.h"
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/base/spread.h"
@@ -38,10 +39,7 @@ void check_arguments(std::span<const Vec3> points, std::span<const Vec3> targets
                      const ViewPlanOptions& options) {
   if (points.empty()) throw InvalidArgument("plan_views: points must not be empty");
   if (targets.empty()) throw InvalidArgument("plan_views: targets must not be empty");
-  if (!(pixel_size > 0.0) || !std::isfinite(pixel_size)) {
-    throw InvalidArgument("plan_views: pixel_size must be positive and finite, got " +
-                          std::to_string(pixel_size));
-  }
+  check_positive("plan_views: pixel_size", pixel_size);
   if (options.max_views < 1) {
     throw InvalidArgument("plan_views: max_views must be at least 1, got " +
                           std::to_string(options.max_views));

@@ -6,6 +6,7 @@
 #include <string>
 #include <variant>
 
+#include "core/base/check_number.h"
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/plan/directions.h"
@@ -56,10 +57,7 @@ VisibilityVotes scaled_votes(std::span<const VoteSum> sums, int count) {
 
 VisibilityVotes visibility_votes(Rasterizer& rasterizer, const Scene& scene, double pixel_size,
                                  int direction_count, const Progress& progress) {
-  if (!(pixel_size > 0.0) || !std::isfinite(pixel_size)) {
-    throw InvalidArgument("visibility_votes: pixel_size must be positive and finite, got " +
-                          std::to_string(pixel_size));
-  }
+  check_positive("visibility_votes: pixel_size", pixel_size);
   if (direction_count < 1 || direction_count > kMaxVoteDirections) {
     throw InvalidArgument("visibility_votes: direction_count must lie in [1, " +
                           std::to_string(kMaxVoteDirections) + "], got " +

@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include "core/base/check_number.h"
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/base/progress_part.h"
@@ -61,7 +62,6 @@ constexpr double kUncoveredShareIfClean = 0.002;  ///< less is left to regrow()
 constexpr double kNarrowShare = 0.03;
 constexpr std::size_t kJudgedSamples = 100'000;
 constexpr std::size_t kCoverSamples = 2'000'000;  ///< drawn to plan views of what is uncovered
-constexpr double kCosine75Degrees = 0.2588190451025207;  ///< steeper cells are cut, see scan_recipe
 constexpr double kMinFillLoop = 6.0;          ///< pixel sides; shorter loops are left to the finish
 constexpr std::size_t kMinPieceOfSheet = 12;  ///< faces: much of an open sheet lies apart
 constexpr std::size_t kAreaSamples = 400'000;  ///< of polygons, to plan and to judge coverage
@@ -87,6 +87,8 @@ void check_options(const Scene& scene, const ReconstructOptions& options) {
     throw InvalidArgument("reconstruct: threads must not be negative, got " +
                           std::to_string(options.threads));
   }
+  check_not_negative("reconstruct: close_holes", options.close_holes);
+  check_not_negative("reconstruct: decimate", options.decimate.value_or(0.0));
 }
 
 /// One automatic run. Every change to the mesh is a command of a Session, so the run can be

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/base/check_number.h"
 #include "core/base/error.h"
 #include "core/plan/spacing.h"
 #include "core/raster/rasterizer.h"
@@ -85,10 +86,7 @@ double demanded_pixel_size(const Scene& scene, std::span<const Vec3> samples,
 Resolution choose_resolution(const Scene& scene, std::span<const Vec3> samples,
                              std::optional<double> pixel_size, std::optional<std::size_t> triangles,
                              bool is_remeshed, double excess) {
-  if (pixel_size && (!(*pixel_size > 0.0) || !std::isfinite(*pixel_size))) {
-    throw InvalidArgument("reconstruct: pixel_size must be positive and finite, got " +
-                          std::to_string(*pixel_size));
-  }
+  if (pixel_size) check_positive("reconstruct: pixel_size", *pixel_size);
   if (triangles && *triangles == 0) {
     throw InvalidArgument("reconstruct: triangles must be at least 1, got 0");
   }

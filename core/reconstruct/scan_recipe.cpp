@@ -7,7 +7,6 @@ namespace rangezip {
 
 namespace {
 
-constexpr double kCosine75Degrees = 0.2588190451025207;
 constexpr int kImageMargin = 4;  ///< pixels around the object, so that no pass meets the border
 
 /// The places, with the surface around them that samples there are joined to.

@@ -10,6 +10,9 @@
 
 namespace rangezip {
 
+/// Cells of the grid that are steeper are cut.
+inline constexpr double kCosine75Degrees = 0.2588190451025207;
+
 /// What every scan of an automatic run has in common.
 struct ScanRecipe {
   ReconstructMethod method = ReconstructMethod::automatic;

@@ -78,7 +78,8 @@ struct Scan {
 /// scene -> view -> rasterizer -> range image -> passes -> mask -> patch.
 /// A pure function of its arguments; the rasterizer is only a tool.
 /// The patch's vertices name the primitive that won their pixel (none for filled ones).
-/// @param votes one per point of the scene (see DrawPoints), or empty: no visibility vote
+/// @param votes one per point of the scene (see DrawPoints), or empty: no visibility vote. Asked by
+///     ScanRequest::plane_fit, in vain without that
 /// @throws InvalidArgument if a part of the request breaks the rule of its pass, Cancelled.
 [[nodiscard]] Scan scan(Rasterizer& rasterizer, const Scene& scene, const TriangleMesh& mesh,
                         const ScanRequest& request, std::span<const std::int8_t> votes = {},

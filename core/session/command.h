@@ -24,7 +24,8 @@ struct VoteOptions {
 struct AddScan {
   ScanRequest scan;
   StitchOptions stitch;
-  std::optional<VoteOptions> vote;  ///< absent: no visibility vote
+  std::optional<VoteOptions>
+      vote;  ///< absent, or without ScanRequest::plane_fit: no visibility vote
 };
 
 /// Deletes the faces seen inside a lasso (the red one) [Kobbelt, Botsch 2000, 3].
@@ -48,8 +49,8 @@ struct SmoothMesh {
 
 /// Closes boundary loops up to a perimeter.
 struct FillMeshHoles {
-  double pixel_size = 0.0;  ///< least length of new edges, model units; longer where the edges
-                            ///< around the hole are
+  double pixel_size = 0.0;  ///< length of new edges, model units; 0: as long as those around the
+                            ///< hole
   double max_perimeter = std::numeric_limits<double>::infinity();  ///< model units
 };
 

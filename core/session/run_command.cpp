@@ -57,7 +57,7 @@ class CommandRun {
   void operator()(const AddScan& command) {
     std::vector<std::int8_t> votes;
     double begin = 0.0;
-    if (command.vote) {
+    if (command.vote && command.scan.plane_fit) {  // which is what asks the votes
       begin = kVoteShare;
       votes = votes_toward(
           votes_.votes(rasterizer_, scene_, *command.vote, part_of(progress_, 0.0, kVoteShare)),
@@ -66,7 +66,8 @@ class CommandRun {
     result_.scan = scan(rasterizer_, scene_, result_.mesh, command.scan, votes,
                         part_of(progress_, begin, 1.0));
     result_.report.scan = result_.scan->report;
-    StitchResult stitched = stitch(std::move(result_.mesh), *result_.scan, command.stitch);
+    StitchResult stitched =
+        stitch(std::move(result_.mesh), *result_.scan, command.stitch, progress_);
     result_.mesh = std::move(stitched.mesh);
     result_.report.stitch = stitched.report;
   }
@@ -84,7 +85,8 @@ class CommandRun {
   }
 
   void operator()(const SmoothMesh& command) {
-    result_.mesh = laplacian_smooth(std::move(result_.mesh), command.iterations, command.factor);
+    result_.mesh =
+        laplacian_smooth(std::move(result_.mesh), command.iterations, command.factor, progress_);
   }
 
   void operator()(const FillMeshHoles& command) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "core/base/check_number.h"
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/mesh/edge_map.h"
@@ -38,6 +39,17 @@ constexpr std::size_t kGivenUp = 10;
 
 /// The part is cut out this much wider than the seam can be, pixels.
 constexpr int kPartMargin = 2;
+
+void check(const StitchOptions& options) {
+  constexpr double kMost = StitchOptions::kMostPixels;
+  check_positive("stitch: band", options.band);
+  check_range("stitch: clearance", options.clearance, 0.0, kMost);
+  check_positive("stitch: max_gap", options.max_gap);
+  check_range("stitch: max_gap", options.max_gap, 0.0, kMost);
+  check_range("stitch: min_strip_cosine", options.min_strip_cosine, 0.0, 1.0);
+  check_not_negative("stitch: collapse_ratio", options.collapse_ratio);
+  check_range("stitch: withdrawal", options.withdrawal, 0.0, kMost);
+}
 
 void check_indices(const TriangleMesh& mesh) {
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
@@ -288,11 +300,12 @@ struct Settled {
 
 /// Withdraws the patch until it can stay.
 Settled settle(const MeshPart& part, const ImagePlane& image, const Scan& scan,
-               const StitchOptions& options, bool keeps_old) {
+               const StitchOptions& options, bool keeps_old, const Progress& progress) {
   Settled settled{.patch = scan.patch};
   Patch whole = scan.decimate ? scan.whole_patch : scan.patch;
   int radius = options.withdrawal;
   for (int round = 1; !settled.patch.mesh.empty(); ++round) {
+    progress.check_stop();
     Tried tried = try_to_join(part, image, PatchScan(scan, settled.patch, part.face_in_whole),
                               options, keeps_old);
     settled.reaches_rim = tried.reaches_rim;
@@ -313,11 +326,11 @@ Settled settle(const MeshPart& part, const ImagePlane& image, const Scan& scan,
 /// The same. Where a crumb of the mesh so far went nothing may lie any more, wherever the patch
 /// ends: before the patch is given up for that, crumbs stay.
 Settled settle_or_keep_crumbs(const MeshPart& part, const ImagePlane& image, const Scan& scan,
-                              const StitchOptions& options) {
-  Settled settled = settle(part, image, scan, options, false);
+                              const StitchOptions& options, const Progress& progress) {
+  Settled settled = settle(part, image, scan, options, false, progress);
   const bool is_given_up = kGivenUp * settled.faces() < grid_triangle_count(scan.patch);
   if (settled.reaches_rim || !is_given_up || !settled.dropped_crumbs) return settled;
-  Settled with_crumbs = settle(part, image, scan, options, true);
+  Settled with_crumbs = settle(part, image, scan, options, true, progress);
   const bool is_more = with_crumbs.reaches_rim || with_crumbs.faces() > settled.faces();
   return is_more ? std::move(with_crumbs) : std::move(settled);
 }
@@ -325,9 +338,9 @@ Settled settle_or_keep_crumbs(const MeshPart& part, const ImagePlane& image, con
 /// Stitches into a part of the mesh; nothing is done, and nothing returned, if the part is too
 /// small for that.
 std::optional<Stitched> stitch_into(TriangleMesh& mesh, const MeshPart& part, const Scan& scan,
-                                    const StitchOptions& options) {
+                                    const StitchOptions& options, const Progress& progress) {
   const ImagePlane image = project_to_image(part.mesh.positions, scan.image.view());
-  const Settled settled = settle_or_keep_crumbs(part, image, scan, options);
+  const Settled settled = settle_or_keep_crumbs(part, image, scan, options, progress);
   if (settled.reaches_rim) return std::nullopt;
   Stitched stitched;
   if (settled.joined) {
@@ -342,14 +355,16 @@ std::optional<Stitched> stitch_into(TriangleMesh& mesh, const MeshPart& part, co
 
 }  // namespace
 
-StitchResult stitch(TriangleMesh mesh, const Scan& scan, const StitchOptions& options) {
+StitchResult stitch(TriangleMesh mesh, const Scan& scan, const StitchOptions& options,
+                    const Progress& progress) {
+  check(options);
   check_indices(mesh);
   if (scan.patch.mesh.empty()) return {.mesh = std::move(mesh)};
   const MeshPart near =
       cut_out_part(mesh, scan.image.view(), scan.patch.pixels, sheet_radius(options) + kPartMargin);
-  std::optional<Stitched> stitched = stitch_into(mesh, near, scan, options);
+  std::optional<Stitched> stitched = stitch_into(mesh, near, scan, options, progress);
   // Faces of any length may reach farther than any margin: in one of 50,000 random stitches.
-  if (!stitched) stitched = stitch_into(mesh, whole_as_part(mesh), scan, options);
+  if (!stitched) stitched = stitch_into(mesh, whole_as_part(mesh), scan, options, progress);
   return {std::move(mesh), stitched->report, std::move(stitched->record)};
 }
 

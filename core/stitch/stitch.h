@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/base/progress.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/patch/patch.h"
 #include "core/scan/scan.h"
@@ -16,16 +17,22 @@ enum class StitchMethod {
 };
 
 struct StitchOptions {
+  /// Wider than any seam is to be; what is near the patch is looked for so far.
+  static constexpr int kMostPixels = 64;
+
   StitchMethod method = StitchMethod::clear_and_fill;
-  double band = 1.0;       ///< half width, in pixel sides times stretch_of(slope), of the depth
-                           ///< band in which old surface counts as covered by the patch
-  double clearance = 0.4;  ///< pixels; old vertices closer to the patch go (against slivers)
-  double max_gap = 3.5;    ///< pixels; longest edge of a strip triangle in the image plane
+  double band = 1.0;  ///< half width, in pixel sides times stretch_of(slope), of the depth
+                      ///< band in which old surface counts as covered by the patch
+  double clearance =
+      0.4;  ///< pixels, up to kMostPixels; old vertices closer to the patch go (against slivers)
+  double max_gap =
+      3.5;  ///< pixels, up to kMostPixels; longest edge of a strip triangle in the image plane
   double min_strip_cosine = 0.139;  ///< of the angle to the line of sight (82 degrees)
   double collapse_ratio = 0.45;  ///< zipper: seam edges shorter than this share of a pixel side are
                                  ///< collapsed; 0 turns it off
-  int withdrawal = 0;  ///< pixels, not negative; so far around a hole the patch gives way first.
-                       ///< 0: its grid triangles at the pixel of the hole, the least there is
+  int withdrawal =
+      0;  ///< pixels, 0 to kMostPixels; so far around a hole the patch gives way first.
+          ///< 0: its grid triangles at the pixel of the hole, the least there is
   std::size_t min_component = 30;  ///< pieces of the result with fewer triangles are dropped
   std::uint32_t view = VertexSource::kNoView;  ///< recorded with each new vertex
 };
@@ -82,10 +89,12 @@ struct StitchResult {
 ///
 /// Pieces are dropped only where this stitch changed them. An empty patch changes nothing.
 ///
+/// @throws InvalidArgument if an option is out of range; Cancelled, which is looked for before each
+///     attempt
 /// @throws TopologyError if `mesh` has an index out of range or is not oriented and manifold; the
 ///     latter is looked at near the patch only, since the rest is not touched.
 /// Cost: O(n log n) of the faces near the patch, and about 20 ns for each other face of the mesh.
 [[nodiscard]] StitchResult stitch(TriangleMesh mesh, const Scan& scan,
-                                  const StitchOptions& options = {});
+                                  const StitchOptions& options = {}, const Progress& progress = {});
 
 }  // namespace rangezip

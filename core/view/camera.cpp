@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/base/check_number.h"
 #include "core/base/error.h"
 
 namespace rangezip {
@@ -79,10 +80,7 @@ Camera fit_depth_planes(Camera camera, const Box& bounds) {
 
 FramedCamera frame_box(const Box& bounds, const Vec3& toward_viewer, double pixel_size, int margin,
                        const std::optional<Vec3>& up) {
-  if (!(pixel_size > 0.0) || !std::isfinite(pixel_size)) {
-    throw InvalidArgument("frame_box: pixel_size must be positive and finite, got " +
-                          std::to_string(pixel_size));
-  }
+  check_positive("frame_box: pixel_size", pixel_size);
   if (bounds.is_empty()) throw InvalidArgument("frame_box: bounds must not be empty");
   const double length = glm::length(toward_viewer);
   if (!(length > 0.0) || !std::isfinite(length)) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/base/check_number.h"
 #include "core/base/deterministic_math.h"
 #include "core/base/error.h"
 
@@ -71,10 +72,7 @@ View::View(Camera camera, Extent extent) : camera_(std::move(camera)), extent_(e
   const double half_width = 0.5 * extent_.width;
   const double half_height = 0.5 * extent_.height;
   if (const auto* lens = std::get_if<Orthographic>(&camera_.lens)) {
-    if (!(lens->height > 0.0) || !std::isfinite(lens->height)) {
-      throw InvalidArgument("View: the orthographic height must be positive and finite, got " +
-                            std::to_string(lens->height));
-    }
+    check_positive("View: the orthographic height", lens->height);
     unit_pixel_size_ = lens->height / extent_.height;
     window_from_eye[0][0] = 1.0 / unit_pixel_size_;
     window_from_eye[1][1] = 1.0 / unit_pixel_size_;

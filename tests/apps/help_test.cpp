@@ -85,6 +85,7 @@ TEST_CASE("a wrong command line is refused with exit code 1 and the reason", "[a
       {{"scan", cloud, "-o", out, "--clip", "1,0,0"}, "four numbers"},
       {{"scan", cloud, "-o", out, "--perspective", "180"}, "less than 180 degrees"},
       {{"scan", cloud, "-o", out, "--no-median", "--median-radius", "2"}, "needs --median"},
+      {{"scan", cloud, "-o", out, "--vote", "--no-plane-fit"}, "--vote: needs --plane-fit"},
       {{"scan", cloud, "-o", out, "--median", "--no-median"}, "--median: given with its opposite"},
       {{"render", cloud, "-o", folder / "a.png", "--size", "1"}, "two whole numbers"},
   };

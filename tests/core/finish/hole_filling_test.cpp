@@ -60,6 +60,15 @@ TEST_CASE("a fill that was made before is as good as one made for the request") 
   REQUIRE(kept == fresh);
 }
 
+TEST_CASE("edges that are to be all but nothing are a thousandth of the loop") {
+  const FilledMesh filled = fill_mesh_holes(sphere_with_hole(24, 0.8), 1e-12, kUnlimited);
+  // A triangle of such edges has an area of half their square; the cap that is missing about
+  // 2 pi 0.2 and a perimeter of 2 pi 0.6.
+  const double edge = 0.001 * 2.0 * kPi * 0.6;
+  REQUIRE(static_cast<double>(filled.filled_faces) * 0.5 * edge * edge < 3.0 * 2.0 * kPi * 0.2);
+  REQUIRE(filled.filled_holes == 1);
+}
+
 TEST_CASE("a smooth fill of a sphere stays near the sphere") {
   const FilledMesh filled = fill_mesh_holes(sphere_with_hole(24, 0.9), 0.0, kUnlimited);
   // A flat fill of a cap this wide lies up to 1 - 0.9 + one edge below the sphere; the smooth one

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <stop_token>
 
 #include "core/base/error.h"
 #include "tests/core/finish/shapes.h"
@@ -60,6 +61,9 @@ TEST_CASE("laplacian_smooth refuses what it cannot do") {
   REQUIRE_THROWS_AS(laplacian_smooth(mesh, -1), InvalidArgument);
   REQUIRE_THROWS_AS(laplacian_smooth(mesh, 1, 0.0), InvalidArgument);
   REQUIRE_THROWS_AS(laplacian_smooth(mesh, 1, 1.5), InvalidArgument);
+  std::stop_source source;
+  source.request_stop();
+  REQUIRE_THROWS_AS(laplacian_smooth(mesh, 1, 0.5, {.stop = source.get_token()}), Cancelled);
   REQUIRE_THROWS_AS(laplacian_smooth(mesh, 1, std::numeric_limits<double>::quiet_NaN()),
                     InvalidArgument);
   TriangleMesh broken = mesh;

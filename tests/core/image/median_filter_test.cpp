@@ -63,6 +63,7 @@ TEST_CASE("median_filter of a mirrored image is the mirrored result", "[image]")
 TEST_CASE("median_filter refuses impossible options", "[image]") {
   const RangeImage image(images::parallel_view({3, 3}));
   CHECK_THROWS_AS(median_filter(image, {.radius = 0}), InvalidArgument);
+  CHECK_THROWS_AS(median_filter(image, {.radius = 51}), InvalidArgument);
   CHECK_THROWS_AS(median_filter(image, {.radius = 1, .max_step = 0.0}), InvalidArgument);
 }
 

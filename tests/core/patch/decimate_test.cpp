@@ -201,6 +201,7 @@ TEST_CASE("decimate refuses options out of range", "[patch]") {
   CHECK_THROWS_AS(decimate(image, whole_patch(image), {.tolerance = -0.1}), InvalidArgument);
   CHECK_THROWS_AS(decimate(image, whole_patch(image), {.tolerance = kNoSample}), InvalidArgument);
   CHECK_THROWS_AS(decimate(image, whole_patch(image), {.max_block = 0}), InvalidArgument);
+  CHECK_THROWS_AS(decimate(image, whole_patch(image), {.max_block = 1 << 30}), InvalidArgument);
 }
 
 }  // namespace

@@ -343,6 +343,8 @@ TEST_CASE("reconstruct refuses what cannot be meshed", "[reconstruct]") {
   CHECK_THROWS_AS(run(scene, {.triangles = 0}), InvalidArgument);
   CHECK_THROWS_AS(run(scene, {.views = 0}), InvalidArgument);
   CHECK_THROWS_AS(run(scene, {.threads = -1}), InvalidArgument);
+  CHECK_THROWS_AS(run(scene, {.decimate = -0.1}), InvalidArgument);
+  CHECK_THROWS_AS(run(scene, {.close_holes = -1.0}), InvalidArgument);
   const PointCloud two{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 0, 0}}};
   CHECK_THROWS_AS(run(scene_of(two)), InvalidArgument);
 }

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include <bit>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -124,6 +125,21 @@ TEST_CASE("passes that do not run and limits that do not exist stay so", "[sessi
         std::numeric_limits<double>::infinity());
 }
 
+TEST_CASE("numbers that are too large to tell from the next smaller one come back",
+          "[session_file]") {
+  const TemporaryFolder folder;
+  for (const double huge : {0x1.0p53, -0x1.8p60, 1e300}) {
+    CAPTURE(huge);
+    AddScan scan;
+    scan.scan.camera.eye_from_world[3][2] = huge;
+    scan.stitch.band = std::abs(huge);
+    write_session(folder / "a.json", {.commands = {scan}});
+    const SessionFile read = read_session(folder / "a.json");
+    CHECK(same_bits(std::get<AddScan>(read.commands[0]).scan.camera, scan.scan.camera));
+    CHECK(same_bits(std::get<AddScan>(read.commands[0]).stitch.band, scan.stitch.band));
+  }
+}
+
 TEST_CASE("what a hand-written session leaves out has its default", "[session_file]") {
   const auto scan = std::get<AddScan>(
       read_command(R"("command": "scan", "median": {}, )" + std::string(kCamera)));
@@ -192,7 +208,7 @@ TEST_CASE("a wrong session is refused with file, place, rule and value", "[sessi
       {R"("command": "smooth", "factor": "big")", "/commands/1/factor: must be a number"},
       {R"("command": "smooth", "factor": 1e999)", "number overflow"},
       {R"("command": "smooth", "iterations": 0)",
-       "/commands/1/iterations: must be an integer in [1, 2147483647], got 0"},
+       "/commands/1/iterations: must be an integer in [1, 10000], got 0"},
       {R"("command": "smooth", "iterations": 1.0)", "/commands/1/iterations: must be an integer"},
       {R"("command": "smooth", "iterations": 3000000000)",
        "/commands/1/iterations: must be an integer"},
@@ -212,6 +228,12 @@ TEST_CASE("a wrong session is refused with file, place, rule and value", "[sessi
        "/commands/1/median: must be an object, got 3"},
       {R"("command": "scan", "median": {"radius": 0}, )" + camera,
        "/commands/1/median/radius: must be an integer"},
+      {R"("command": "scan", "median": {"radius": 2147483647}, )" + camera,
+       "/commands/1/median/radius: must be an integer in [1, 50]"},
+      {R"("command": "scan", "decimate": {"max_block": 1073741824}, )" + camera,
+       "/commands/1/decimate/max_block: must be an integer in [1, 8192]"},
+      {R"("command": "scan", "stitch": {"max_gap": 65}, )" + camera,
+       "/commands/1/stitch/max_gap: must be a number greater than 0.0 and of at most 64.0, got 65"},
       {R"("command": "scan", "vote": {}, )" + camera, "/commands/1/vote/pixel_size: must be given"},
       {R"("command": "scan", "extent": {"width": 9000}, )" + camera,
        "/commands/1/extent/width: must be an integer in [1, 8192], got 9000"},

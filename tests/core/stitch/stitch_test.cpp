@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <limits>
 #include <set>
+#include <stop_token>
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
@@ -364,6 +366,22 @@ TEST_CASE("small pieces go where the stitch made them, and stay elsewhere", "[st
   CHECK(result.report.dropped_components == 1);
   CHECK(result.report.dropped_faces == 6);
   CHECK(result.mesh.triangles.size() == 8 + 200);
+}
+
+TEST_CASE("stitch refuses options out of range, and stops when asked to", "[stitch]") {
+  const TriangleMesh mesh = lattice({8.3, 8.6}, 40, 40, 1.0, 20.0);
+  const Scan scan = hand_scan(plane(20.0), rectangle({20, 20}, {21, 21}), mesh);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_AS(stitch(mesh, scan, {.band = 0.0}), InvalidArgument);
+  CHECK_THROWS_AS(stitch(mesh, scan, {.clearance = -0.1}), InvalidArgument);
+  CHECK_THROWS_AS(stitch(mesh, scan, {.max_gap = 0.0}), InvalidArgument);
+  CHECK_THROWS_AS(stitch(mesh, scan, {.max_gap = 65.0}), InvalidArgument);
+  CHECK_THROWS_AS(stitch(mesh, scan, {.min_strip_cosine = nan}), InvalidArgument);
+  CHECK_THROWS_AS(stitch(mesh, scan, {.collapse_ratio = -1.0}), InvalidArgument);
+  CHECK_THROWS_AS(stitch(mesh, scan, {.withdrawal = -1}), InvalidArgument);
+  std::stop_source source;
+  source.request_stop();
+  CHECK_THROWS_AS(stitch(mesh, scan, {}, {.stop = source.get_token()}), Cancelled);
 }
 
 TEST_CASE("stitch refuses a mesh that is not one", "[stitch]") {
