@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/base/cubes.h"
+
 namespace rangezip {
 namespace {
 
@@ -14,28 +16,47 @@ constexpr std::size_t kMinBeside = 4;
 constexpr std::size_t kMinRun = 16;
 constexpr std::uint32_t kMaxStep = 4;
 
+/// Of the reach: sides of the cubes in which vertices are looked up. The excess is for what rounds.
+constexpr double kCube = 1.001;
+
 /// A vertex of a boundary, numbered over all loops.
 struct BoundaryVertex {
+  Cube cube;
   Vec3 position;
   std::uint32_t loop;
   std::uint32_t place;  ///< in its loop
 };
 
-/// All vertices, sorted along x: those within reach of one stand in a short run around it.
+/// All vertices, sorted by their cubes: those within reach of one lie in its cube and those around.
 std::vector<BoundaryVertex> sorted_vertices(std::span<const BoundaryLoop> loops,
                                             const CornerTable& table,
-                                            const std::vector<Vec3>& positions) {
+                                            const std::vector<Vec3>& positions, double reach) {
   std::vector<BoundaryVertex> vertices;
   for (std::uint32_t l = 0; l < loops.size(); ++l) {
     const std::vector<std::uint32_t> of_loop = vertices_of(loops[l], table);
-    for (std::uint32_t i = 0; i < of_loop.size(); ++i)
-      vertices.push_back({positions[of_loop[i]], l, i});
+    for (std::uint32_t i = 0; i < of_loop.size(); ++i) {
+      const Vec3& position = positions[of_loop[i]];
+      vertices.push_back({cube_of(position, kCube * reach), position, l, i});
+    }
   }
   std::sort(vertices.begin(), vertices.end(), [](const auto& p, const auto& q) {
-    if (p.position.x != q.position.x) return p.position.x < q.position.x;
-    return p.loop != q.loop ? p.loop < q.loop : p.place < q.place;
+    return std::tie(p.cube, p.loop, p.place) < std::tie(q.cube, q.loop, q.place);
   });
   return vertices;
+}
+
+/// Calls visit(vertex) for those in a cube and in the ones that touch it, which are rows of three.
+template <class Visit>
+void for_each_around(const std::vector<BoundaryVertex>& vertices, const Cube& cube,
+                     const Visit& visit) {
+  for (int row = 0; row < 9; ++row) {
+    const std::int64_t x = cube[0] + row % 3 - 1, y = cube[1] + row / 3 - 1;
+    const Cube first{x, y, cube[2] - 1}, last{x, y, cube[2] + 1};
+    auto v = std::lower_bound(vertices.begin(), vertices.end(), first,
+                              [](const auto& vertex, const Cube& c) { return vertex.cube < c; });
+    for (; v != vertices.end() && v->cube <= last; ++v)
+      visit(*v);
+  }
 }
 
 /// Keeps the nearer of two entries for the same pair of loops.
@@ -86,23 +107,18 @@ std::vector<LoopNeighbors> loop_neighbors(
     std::span<const BoundaryLoop> loops, const CornerTable& table,
     const std::vector<Vec3>& positions, double reach,
     const std::function<bool(std::uint32_t a, std::uint32_t b)>& are_wanted) {
-  const std::vector<BoundaryVertex> vertices = sorted_vertices(loops, table, positions);
+  const std::vector<BoundaryVertex> vertices = sorted_vertices(loops, table, positions, reach);
   std::vector<LoopNeighbors> found, nearest;
   const auto consider = [&](const BoundaryVertex& v, const BoundaryVertex& w) {
-    if (v.loop == w.loop || !are_wanted(v.loop, w.loop)) return;
+    if (v.loop == w.loop) return;
     const double distance = glm::length(v.position - w.position);
-    if (distance > reach) return;
+    if (distance > reach || !are_wanted(v.loop, w.loop)) return;
     const auto& [a, b] = v.loop < w.loop ? std::pair(v, w) : std::pair(w, v);
     offer(nearest, {a.loop, b.loop, distance, a.place, b.place});
   };
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const BoundaryVertex& v = vertices[i];
+  for (const BoundaryVertex& v : vertices) {
     nearest.clear();
-    for (std::size_t k = i; k-- > 0 && v.position.x - vertices[k].position.x <= reach;)
-      consider(v, vertices[k]);
-    for (std::size_t k = i + 1;
-         k < vertices.size() && vertices[k].position.x - v.position.x <= reach; ++k)
-      consider(v, vertices[k]);
+    for_each_around(vertices, v.cube, [&](const BoundaryVertex& w) { consider(v, w); });
     found.insert(found.end(), nearest.begin(), nearest.end());
   }
   std::sort(found.begin(), found.end());

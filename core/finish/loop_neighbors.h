@@ -26,9 +26,9 @@ struct LoopNeighbors {
 };
 
 /// For each vertex of each loop the nearest vertex of every other loop within `reach`, sorted: by
-/// pair of loops, the nearest first. O(n log n) in the vertices of all loops, and those in slabs of
-/// twice the reach.
-/// @param reach model units
+/// pair of loops, the nearest first. O(n log n) in the vertices of all loops, and for each of them
+/// those up to twice the reach away along every axis.
+/// @param reach model units, positive
 /// @param are_wanted whether two loops are to be compared; called with loop indices
 [[nodiscard]] std::vector<LoopNeighbors> loop_neighbors(
     std::span<const BoundaryLoop> loops, const CornerTable& table,
