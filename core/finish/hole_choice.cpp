@@ -216,18 +216,19 @@ bool open_left_out(const std::vector<Vec3>& positions, HoleFill& fill, const Poi
 }
 
 bool is_lost_wall(const std::vector<Vec3>& positions, const CornerTable& table,
-                  const BoundaryLoop& loop, const PointGrid& cloud,
+                  const BoundaryLoop& loop, const FaceTree& faces, const PointGrid& cloud,
                   const HoleChoiceOptions& options) {
   return options.is_sampled && loop.corners.size() <= kMaxWallEdges &&
-         is_other_wall(positions, table, loop, cloud, options.noise, options.pixel_size,
+         is_other_wall(positions, table, loop, faces, cloud, options.noise, options.pixel_size,
                        options.memo);
 }
 
 }  // namespace
 
 std::optional<FillChoice> choose_fill(const std::vector<Vec3>& positions, const CornerTable& table,
-                                      const BoundaryLoop& loop, double sheet_area, bool is_zipped,
-                                      const PointGrid& cloud, const HoleChoiceOptions& options) {
+                                      const BoundaryLoop& loop, const FaceTree& faces,
+                                      double sheet_area, bool is_zipped, const PointGrid& cloud,
+                                      const HoleChoiceOptions& options) {
   const double h = options.pixel_size;
   if (loop.corners.size() > kMaxEdges) return std::nullopt;
   const LoopGeometry geometry = geometry_of(positions, table, loop);
@@ -235,7 +236,7 @@ std::optional<FillChoice> choose_fill(const std::vector<Vec3>& positions, const 
   if (geometry.perimeter <= kSmallPerimeter * h) return FillChoice{.shape = FillShape::smooth};
   if (may_be_outline(geometry.perimeter, sheet_area, options) &&
       is_outline(geometry, positions, table, loop, options)) {
-    if (!is_lost_wall(positions, table, loop, cloud, options)) return std::nullopt;
+    if (!is_lost_wall(positions, table, loop, faces, cloud, options)) return std::nullopt;
     return FillChoice{.shape = FillShape::smooth, .is_wall = true};
   }
   const CloudEvidence evidence = options.is_sampled ? CloudEvidence{&cloud, h} : CloudEvidence{};

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/finish/boundary_loops.h"
+#include "core/finish/face_tree.h"
 #include "core/finish/hole_filling.h"
 #include "core/finish/point_grid.h"
 
@@ -51,13 +52,15 @@ struct FillChoice {
 ///   without points that the surface was not sampled there: a hole, or what no scan saw;
 /// - others are closed, unless they are long (60 h, max_hole_perimeter) and wide.
 /// Loops of more than 6000 edges always stay.
+/// @param faces of the positions and the table
 /// @param sheet_area of the component with the loop, square model units
 /// @param is_zipped whether loops have been zipped before
 /// @param cloud points of the cloud; may be empty: no evidence
 [[nodiscard]] std::optional<FillChoice> choose_fill(const std::vector<Vec3>& positions,
                                                     const CornerTable& table,
-                                                    const BoundaryLoop& loop, double sheet_area,
-                                                    bool is_zipped, const PointGrid& cloud,
+                                                    const BoundaryLoop& loop, const FaceTree& faces,
+                                                    double sheet_area, bool is_zipped,
+                                                    const PointGrid& cloud,
                                                     const HoleChoiceOptions& options);
 
 /// What a cloud shows inside of a hole, where a fill lies more than 1.5 h away from its loop; of a

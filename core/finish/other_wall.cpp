@@ -47,19 +47,6 @@ std::vector<Vec3> places_inside(const std::vector<Vec3>& positions, const HoleFi
   return places;
 }
 
-/// The faces that come into a box.
-TriangleMesh faces_in(const std::vector<Vec3>& positions, const CornerTable& table,
-                      const Box& box) {
-  TriangleMesh mesh{.positions = positions};
-  for (std::uint32_t f = 0; f < table.face_count(); ++f) {
-    if (table.is_deleted(f)) continue;
-    const Triangle t = table.triangle(f);
-    if (boxes_meet(box_of(mesh, t), box)) mesh.triangles.push_back(t);
-  }
-  remove_unused_vertices(mesh);
-  return mesh;
-}
-
 Box box_around(const std::vector<Vec3>& places, double margin) {
   Box box;
   for (const Vec3& p : places)
@@ -72,8 +59,8 @@ Box box_around(const std::vector<Vec3>& places, double margin) {
 }  // namespace
 
 bool is_other_wall(const std::vector<Vec3>& positions, const CornerTable& table,
-                   const BoundaryLoop& loop, const PointGrid& cloud, double noise,
-                   double pixel_size, TriangulationMemo* memo) {
+                   const BoundaryLoop& loop, const FaceTree& faces, const PointGrid& cloud,
+                   double noise, double pixel_size, TriangulationMemo* memo) {
   const double h = pixel_size;
   std::vector<Vec3> around;
   for (const std::uint32_t v : vertices_of(loop, table))
@@ -91,7 +78,7 @@ bool is_other_wall(const std::vector<Vec3>& positions, const CornerTable& table,
     first.push_back(near.size());
   }
   const double off_mesh = std::max(kOffMesh * h, kOffMeshPerNoise * noise);
-  const TriangleMesh part = faces_in(positions, table, box_around(places, kNear * h + off_mesh));
+  const TriangleMesh part = faces.faces_in(box_around(places, kNear * h + off_mesh));
   const std::vector<std::uint8_t> is_on = covered_points(near, part, off_mesh);
   std::size_t shown = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {

@@ -14,6 +14,7 @@
 #include "core/finish/clean_topology.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/ear_fill.h"
+#include "core/finish/face_tree.h"
 #include "core/finish/hole_choice.h"
 #include "core/finish/join_loops.h"
 #include "core/finish/local_plane.h"
@@ -151,11 +152,12 @@ ChosenFills choose_fills(const TriangleMesh& mesh, const MeshPieces& pieces,
                          std::vector<BoundaryLoop> loops, bool is_zipped, const PointGrid& cloud,
                          const HoleChoiceOptions& choice) {
   const std::vector<double> areas = areas_of_components(mesh, pieces.component);
+  const FaceTree faces(mesh.positions, pieces.table);
   std::vector<std::optional<FillChoice>> choices(loops.size());
   parallel_for(loops.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       choices[i] =
-          choose_fill(mesh.positions, pieces.table, loops[i],
+          choose_fill(mesh.positions, pieces.table, loops[i], faces,
                       areas[pieces.component[loops[i].corners[0] / 3]], is_zipped, cloud, choice);
   });
   ChosenFills chosen;

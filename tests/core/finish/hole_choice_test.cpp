@@ -86,7 +86,8 @@ TEST_CASE("a ragged crack along the edge of a hole is closed along it, not by li
     }
     const PointGrid no_points({}, Box{}, 1.0);
     const auto choice =
-        choose_fill(mesh.positions, table, loops[0], 1000.0, false, no_points, {.pixel_size = 1.0});
+        choose_fill(mesh.positions, table, loops[0], FaceTree(mesh.positions, table), 1000.0, false,
+                    no_points, {.pixel_size = 1.0});
     REQUIRE(choice);
     if (choice->shape != FillShape::narrow) {
       CHECK(choice->shape == FillShape::flat);
@@ -113,9 +114,10 @@ TEST_CASE(
   REQUIRE(report.longest_loop < 60.0 * kH);
   const CornerTable table(mesh.triangles, mesh.positions.size());
   const BoundaryLoop loop = boundary_loops(table).at(0);
+  const FaceTree faces(mesh.positions, table);
   const PointGrid no_points({}, Box{}, kH);
   const auto choice = [&](double sheet_area, bool has_narrow_gaps = false) {
-    return choose_fill(mesh.positions, table, loop, sheet_area, false, no_points,
+    return choose_fill(mesh.positions, table, loop, faces, sheet_area, false, no_points,
                        {.pixel_size = kH, .has_narrow_gaps = has_narrow_gaps});
   };
   const double as_disc = report.longest_loop * report.longest_loop / (4.0 * 3.14159265358979);
@@ -132,12 +134,13 @@ TEST_CASE("the outline of a small piece is a hole, unless all is seen from one s
   REQUIRE(report_mesh(mesh).longest_loop < 20.0 * kH);
   const CornerTable table(mesh.triangles, mesh.positions.size());
   const BoundaryLoop loop = boundary_loops(table).at(0);
+  const FaceTree faces(mesh.positions, table);
   const PointGrid no_points({}, Box{}, kH);
   double area = 0.0;
   for (const Triangle& t : mesh.triangles)
     area += area_of_face(mesh.positions, t);
   const auto is_closed = [&](double sheet_area, bool open_sheet) {
-    return choose_fill(mesh.positions, table, loop, sheet_area, false, no_points,
+    return choose_fill(mesh.positions, table, loop, faces, sheet_area, false, no_points,
                        {.pixel_size = kH, .open_sheet = open_sheet})
         .has_value();
   };

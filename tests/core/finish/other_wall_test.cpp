@@ -44,7 +44,8 @@ bool is_wall(const TriangleMesh& mesh, const std::vector<Vec3>& points, double n
   const CornerTable table(mesh.triangles, mesh.positions.size());
   const std::vector<BoundaryLoop> loops = boundary_loops(table);
   REQUIRE(loops.size() == 1);
-  return is_other_wall(mesh.positions, table, loops[0], grid_of(points), noise, kH);
+  const FaceTree faces(mesh.positions, table);
+  return is_other_wall(mesh.positions, table, loops[0], faces, grid_of(points), noise, kH);
 }
 
 }  // namespace
