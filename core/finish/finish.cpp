@@ -24,6 +24,7 @@
 #include "core/finish/hole_choice.h"
 #include "core/finish/left_out_points.h"
 #include "core/finish/local_sizes.h"
+#include "core/finish/mark_around.h"
 #include "core/finish/orient_pieces.h"
 #include "core/finish/papered_faces.h"
 #include "core/finish/point_grid.h"
@@ -295,23 +296,6 @@ bool is_to_coarsen(const TriangleMesh& mesh, const FinishOptions& options) {
          (options.triangles > 0 && mesh.triangles.size() > kFarFewer * options.triangles);
 }
 
-/// Flags the vertices of a mesh in the boxes around faces, of another mesh, that cross.
-void mark_around(const TriangleMesh& mesh, const TriangleMesh& other, const Pairs& crossing,
-                 std::vector<std::uint8_t>& marked) {
-  for (const auto& [i, j] : crossing) {
-    Box box;
-    for (const std::uint32_t face : {i, j}) {
-      for (const std::uint32_t v : other.triangles[face])
-        box.add(other.positions[v]);
-    }
-    for (std::size_t v = 0; v < marked.size(); ++v) {
-      const Vec3& p = mesh.positions[v];
-      const Vec3 inside = glm::clamp(p, box.lower, box.upper);
-      if (p == inside) marked[v] = 1;
-    }
-  }
-}
-
 /// Coarsens without faces that cross: where they come, the triangles stay as they are.
 /// @return faces that cross nevertheless
 std::vector<std::uint32_t> coarsen_cleanly(TriangleMesh& mesh, CoarsenOptions options,
@@ -325,7 +309,7 @@ std::vector<std::uint32_t> coarsen_cleanly(TriangleMesh& mesh, CoarsenOptions op
       report.collapsed_edges += collapsed;
       return faces_of_pairs(crossing);
     }
-    mark_around(fine, mesh, crossing, options.is_kept);
+    mark_around(mesh, crossing, fine.positions, options.is_kept);
     mesh = fine;
   }
 }
