@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "core/base/disjoint_sets.h"
 #include "core/finish/loop_neighbors.h"
 #include "core/finish/unsupported_faces.h"
 
@@ -37,6 +37,11 @@ constexpr double kAllAround = 0.9;
 constexpr double kSharp = 0.5;
 constexpr double kSharpShare = 0.8;
 
+/// @param component of each face
+std::size_t count_components(const std::vector<std::uint32_t>& component) {
+  return component.empty() ? 0 : 1 + *std::max_element(component.begin(), component.end());
+}
+
 class Bridger {
  public:
   Bridger(TriangleMesh& mesh, const MeshPieces& pieces, const PointGrid& cloud, double pixel_size,
@@ -49,10 +54,7 @@ class Bridger {
         loops_(pieces.loops),
         component_(pieces.component),
         is_bridged_(loops_.size(), 0),
-        joined_(component_.empty() ? 0
-                                   : 1 + *std::max_element(component_.begin(), component_.end())) {
-    std::iota(joined_.begin(), joined_.end(), 0U);
-  }
+        joined_(count_components(component_)) {}
 
   /// What bridge_loops() does.
   std::size_t join_loops() {
@@ -75,7 +77,7 @@ class Bridger {
 
   /// What bridge_runs() does: all runs of two loops at once, which are one component afterwards.
   std::size_t join_runs() {
-    if (joined_.size() < 2) return 0;
+    if (count_components(component_) < 2) return 0;
     std::size_t bridges = 0;
     const std::vector<std::vector<LoopNeighbors>> runs =
         parts_side_by_side(find_neighbors([&](std::uint32_t a, std::uint32_t b) {
@@ -109,12 +111,12 @@ class Bridger {
   [[nodiscard]] bool are_unbridged(const LoopNeighbors& pair) const {
     return is_bridged_[pair.loop_a] == 0 && is_bridged_[pair.loop_b] == 0;
   }
-  [[nodiscard]] bool are_of_one(const LoopNeighbors& pair) const {
+  [[nodiscard]] bool are_of_one(const LoopNeighbors& pair) {
     return component_of(pair.loop_a) == component_of(pair.loop_b);
   }
   void note_joined(const LoopNeighbors& pair) {
     is_bridged_[pair.loop_a] = is_bridged_[pair.loop_b] = 1;
-    join(component_of(pair.loop_a), component_of(pair.loop_b));
+    joined_.join(component_of(pair.loop_a), component_of(pair.loop_b));
   }
 
   /// At both ends of a run: what lies between becomes a loop of its own.
@@ -147,12 +149,9 @@ class Bridger {
     return back <= nb;
   }
 
-  [[nodiscard]] std::uint32_t component_of(std::uint32_t loop) const {
-    return joined_[component_[loops_[loop].corners[0] / 3]];
-  }
-  /// A second bridge between the two would make a handle.
-  void join(std::uint32_t a, std::uint32_t b) {
-    std::replace(joined_.begin(), joined_.end(), b, a);
+  /// One name for all that bridges joined: a second bridge between the two would make a handle.
+  [[nodiscard]] std::uint32_t component_of(std::uint32_t loop) {
+    return joined_.find(component_[loops_[loop].corners[0] / 3]);
   }
 
   [[nodiscard]] Vec3 normal_of(const Triangle& t) const { return unit_normal(mesh_.positions, t); }
@@ -270,7 +269,7 @@ class Bridger {
   const std::vector<BoundaryLoop>& loops_;
   const std::vector<std::uint32_t>& component_;
   std::vector<std::uint8_t> is_bridged_;  ///< of loops
-  std::vector<std::uint32_t> joined_;     ///< one name for all components that bridges joined
+  DisjointSets joined_;                   ///< components, by bridges
   bool may_be_rim_ = false;               ///< what parts the two loops that are joined
   std::vector<LoopNeighbors> between_;    ///< the two loops that are joined: bridges so far
 };

@@ -1,7 +1,9 @@
 #include "core/finish/bridge_loops.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <random>
 #include <utility>
@@ -54,6 +56,63 @@ TEST_CASE(
   CHECK(report.components == 1);
   CHECK(report.boundary_loops == 2);
   CHECK(report.euler == 0);  // a sheet with a hole, not with a handle
+}
+
+/// A tube bent to an arc of a ring in the plane z = 0, 80 across, from one angle to another one.
+TriangleMesh bent_tube(double from, double to) {
+  constexpr double kRing = 40.0, kTube = 6.0, kTurn = 2.0 * 3.14159265358979323846;
+  constexpr std::uint32_t kAlong = 24, kAround = 36;
+  TriangleMesh mesh;
+  for (std::uint32_t i = 0; i <= kAlong; ++i) {
+    const double along = from + (to - from) * i / kAlong;
+    for (std::uint32_t k = 0; k < kAround; ++k) {
+      const double around = kTurn * k / kAround, radius = kRing + kTube * std::cos(around);
+      mesh.positions.emplace_back(radius * std::cos(along), radius * std::sin(along),
+                                  kTube * std::sin(around));
+      if (i == 0) continue;
+      const std::uint32_t q = i * kAround + k, next_q = i * kAround + (k + 1) % kAround;
+      mesh.triangles.push_back({q - kAround, q, next_q});
+      mesh.triangles.push_back({q - kAround, next_q, next_q - kAround});
+    }
+  }
+  return mesh;
+}
+
+/// The numbers below a count in a random order.
+std::vector<std::size_t> shuffled(std::size_t count, std::mt19937_64& engine) {
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < count; ++i) {
+    numbers.push_back(i);
+    std::swap(numbers[i], numbers[engine() % (i + 1)]);
+  }
+  return numbers;
+}
+
+TEST_CASE("tubes around a ring are bridged over all narrow gaps but one that would close the ring",
+          "[finish]") {
+  const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
+  const std::size_t wide = GENERATE(0U, 1U, 3U);
+  CAPTURE(seed, wide);
+  constexpr std::size_t kTubes = 8;
+  constexpr double kStep = 2.0 * 3.14159265358979323846 / kTubes, kNarrow = 1.5 / 40.0,
+                   kWide = 8.0 / 40.0;
+  std::mt19937_64 engine(seed);
+  std::vector<double> gaps(kTubes, kNarrow);  // each behind its tube
+  const std::vector<std::size_t> places = shuffled(kTubes, engine);
+  for (std::size_t i = 0; i < wide; ++i)
+    gaps[places[i]] = kWide;
+  TriangleMesh mesh;
+  for (const std::size_t i : shuffled(kTubes, engine)) {
+    const double begin = kStep * static_cast<double>(i);
+    testing::append(mesh, bent_tube(begin, begin + kStep - gaps[i]));
+  }
+  REQUIRE(testing::volume_of(mesh) > 0.0);
+  const std::size_t bridges = kTubes - std::max<std::size_t>(wide, 1);
+  CHECK(bridge_loops(mesh, pieces_of(mesh), PointGrid({}, Box{}, 1.0), 1.0) == bridges);
+  const MeshReport report = report_mesh(mesh);
+  CHECK(report.is_manifold());
+  CHECK(report.components == kTubes - bridges);
+  CHECK(report.boundary_loops == 2 * kTubes - bridges);
 }
 
 TEST_CASE("sheets seen from opposite sides, one over the rim of the other, become one",
