@@ -1,8 +1,9 @@
 #include "core/finish/faces_around.h"
 
-#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
+#include "core/finish/box_tree.h"
 #include "core/mesh/triangle_overlap.h"
 
 namespace rangezip {
@@ -28,14 +29,10 @@ FacePart part_around(const TriangleMesh& mesh, const std::vector<std::vector<std
   boxes.reserve(loops.size());
   for (const std::vector<std::uint32_t>& loop : loops)
     boxes.push_back(box_around(mesh, loop, margin));
+  const BoxTree tree(boxes);
   std::vector<std::uint8_t> is_in(mesh.triangles.size(), 0);
-  for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
-    const Box box = box_of(mesh, mesh.triangles[f]);
-    is_in[f] = std::any_of(boxes.begin(), boxes.end(),
-                           [&](const Box& other) { return boxes_meet(box, other); })
-                   ? 1
-                   : 0;
-  }
+  for (std::size_t f = 0; f < is_in.size(); ++f)
+    is_in[f] = tree.meets(box_of(mesh, mesh.triangles[f])) ? 1 : 0;
   return face_part(mesh, is_in);
 }
 

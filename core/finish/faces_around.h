@@ -12,7 +12,7 @@ namespace rangezip {
 /// The faces around some loops, with a guard over them and those that come.
 class FacesAround {
  public:
-  /// O(faces * loops). @param loops vertices of each
+  /// O(faces log loops) where few of the boxes around loops overlap. @param loops vertices of each
   /// @param pixel_size h, model units: faces up to 2 h from the box around a loop are watched
   FacesAround(const TriangleMesh& mesh, const std::vector<std::vector<std::uint32_t>>& loops,
               double pixel_size);
