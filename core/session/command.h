@@ -24,8 +24,7 @@ struct VoteOptions {
 struct AddScan {
   ScanRequest scan;
   StitchOptions stitch;
-  std::optional<VoteOptions>
-      vote;  ///< absent, or without ScanRequest::plane_fit: no visibility vote
+  std::optional<VoteOptions> vote;  ///< absent, or without scan.plane_fit: no visibility vote
 };
 
 /// Deletes the faces seen inside a lasso (the red one) [Kobbelt, Botsch 2000, 3].
