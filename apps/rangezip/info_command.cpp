@@ -108,7 +108,7 @@ void print_mesh_or_cloud(Console& console, const std::filesystem::path& path, bo
   for (const InputReport& report : file.reports)
     print_input(console, report);
   // A .conf may list meshes, but is not one.
-  if (file.reports.size() != 1 || file.reports.front().triangles == 0) return;
+  if (file.reports.front().path != path.string() || file.reports.front().triangles == 0) return;
   print_topology(console, read_mesh(path), check);
 }
 

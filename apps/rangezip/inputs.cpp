@@ -47,15 +47,22 @@ Workload workload_of(const Scene& scene) {
   return {static_cast<double>(scene.triangle_count()), "triangles"};
 }
 
+std::vector<fs::path> files_of(const SceneInput& input) {
+  std::vector<fs::path> files;
+  for (const InputReport& report : input.reports)
+    files.emplace_back(report.path);
+  return files;
+}
+
 SessionFile record_session(const std::vector<fs::path>& paths, const SceneInput& input,
                            const std::optional<fs::path>& initial_mesh,
                            std::vector<Command> commands) {
   SessionFile session;
   for (const fs::path& path : paths)
     session.inputs.push_back(with_hash(path));
-  for (const InputReport& report : input.reports) {
-    if (std::find(paths.begin(), paths.end(), fs::path(report.path)) != paths.end()) continue;
-    session.also_read.push_back(with_hash(report.path));
+  for (const fs::path& path : files_of(input)) {
+    if (std::find(paths.begin(), paths.end(), path) == paths.end())
+      session.also_read.push_back(with_hash(path));
   }
   if (initial_mesh) session.initial_mesh = with_hash(*initial_mesh);
   session.points = input.scene.point_count();

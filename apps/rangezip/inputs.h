@@ -25,7 +25,11 @@ struct Workload {
 };
 [[nodiscard]] Workload workload_of(const Scene& scene);
 
-/// A session of `commands` on what was read, with the hash of every file.
+/// All files that were read: a .conf names others.
+[[nodiscard]] std::vector<std::filesystem::path> files_of(const SceneInput& input);
+
+/// A session of `commands` on what was read, with the hash of every file. To be recorded before
+/// anything is written: the hashes are of what lies there now.
 /// @throws IoError if a file has vanished.
 [[nodiscard]] SessionFile record_session(const std::vector<std::filesystem::path>& paths,
                                          const SceneInput& input,

@@ -54,12 +54,12 @@ std::optional<int> parse_views(const std::string& text) {
   return static_cast<int>(number);
 }
 
-void check_outputs(const MeshOptions& options) {
+Outputs outputs_of(const MeshOptions& options) {
   Outputs outputs;
   outputs.add("-o", options.output, {"ply", "obj", "off", "stl"});
   if (options.report) outputs.add("--report", *options.report, {"json"});
   if (options.session) outputs.add("--session", *options.session, {"json"});
-  if (options.session || options.verify) outputs.refuse_overwriting(options.inputs);
+  return outputs;
 }
 
 std::string places_text(std::span<const Place> places, double area) {
@@ -110,13 +110,16 @@ void verify(const MeshOptions& options, const ReconstructReport& report) {
 
 void mesh(const MeshOptions& options, const Context& context) {
   const auto rasterizer = make_rasterizer(options.common.backend);
-  check_outputs(options);
+  const Outputs outputs = outputs_of(options);
+  const bool is_replayed = options.session || options.verify;
+  if (is_replayed) outputs.refuse_overwriting(options.inputs);
   const auto referee = options.verify ? std::optional(find_referee()) : std::nullopt;
   Console console(options.common.quiet, context.stop);
   const StageClock total;
 
   MeshRunReport run{.rasterizer = rasterizer->info()};
   SceneInput input = read_inputs(options.inputs, console);
+  if (is_replayed) outputs.refuse_overwriting(files_of(input));
   run.stages.push_back(total.stage("read"));
 
   const auto [amount, unit] = workload_of(input.scene);
@@ -128,13 +131,13 @@ void mesh(const MeshOptions& options, const Context& context) {
 
   require_faces(result.mesh, options.output,
                 "the scans were too small: use a smaller --pixel-size or more --triangles");
+  std::optional<SessionFile> session;
+  if (is_replayed) {
+    session = record_session(options.inputs, input, std::nullopt, std::move(result.commands));
+  }
   const StageClock write_clock;
   write_output([&] { write_mesh(options.output, result.mesh, options.file); });
   run.stages.push_back(write_clock.stage("write"));
-  std::optional<SessionFile> session;
-  if (options.session || options.verify) {
-    session = record_session(options.inputs, input, std::nullopt, std::move(result.commands));
-  }
   if (options.session) write_output([&] { write_session(*options.session, *session); });
   run.inputs = std::move(input.reports);
   run.reconstruction = std::move(result.report);

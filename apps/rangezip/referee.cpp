@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include <array>
-
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -63,6 +63,7 @@ int run_program(std::vector<std::string> arguments, bool quiet, const std::stop_
   if (quiet) {
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   }
+  std::signal(SIGCHLD, SIG_DFL);  // where it is ignored, nobody learns how a program ended
   pid_t child = 0;
   static_cast<void>(std::fflush(stdout));  // what was printed comes first
   const int failed = posix_spawn(&child, argv[0], &actions, nullptr, argv.data(), environ);
@@ -70,7 +71,9 @@ int run_program(std::vector<std::string> arguments, bool quiet, const std::stop_
   if (failed != 0) throw Error(arguments[0] + ": cannot be started: " + std::strerror(failed));
   int status = 0;
   bool is_asked_to_end = false;
-  while (waitpid(child, &status, WNOHANG) == 0) {
+  for (pid_t ended = 0; ended != child; ended = waitpid(child, &status, WNOHANG)) {
+    if (ended < 0 && errno != EINTR)
+      throw Error(arguments[0] + ": its verdict is not known: " + std::strerror(errno));
     if (stop.stop_requested() && !is_asked_to_end) {
       kill(child, SIGTERM);
       is_asked_to_end = true;

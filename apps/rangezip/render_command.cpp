@@ -42,17 +42,27 @@ void append_cloud(std::vector<Vec3>& onto, const InputItem& item) {
   }
 }
 
+/// The faces of a list of scans, each with the corners that its file gives it.
+void append_soup(TriangleMesh& onto, const InputItem& item) {
+  TriangleMesh mesh{.triangles = item.soup->triangles};
+  for (const Vec3f& position : item.soup->positions)
+    mesh.positions.emplace_back(item.world_from_item * Vec4(Vec3(position), 1.0));
+  append_mesh(onto, std::move(mesh));
+}
+
 /// Points as the readers of clouds give them; faces with the connectivity that their file has.
 PictureContent read_content(const RenderOptions& options, const Progress& progress) {
   PictureContent content;
   for (const std::filesystem::path& path : options.files) {
     const InputFile file = read_input(path, progress);
+    const bool is_list = file.reports.front().path != path.string();
     bool has_faces = false;
     for (const InputItem& item : file.items) {
       if (item.cloud) append_cloud(content.points, item);
+      if (is_list && item.soup) append_soup(content.mesh, item);
       has_faces = has_faces || item.soup != nullptr;
     }
-    if (has_faces) append_mesh(content.mesh, read_mesh(path));
+    if (has_faces && !is_list) append_mesh(content.mesh, read_mesh(path));
   }
   if (options.only_points) {
     const auto& vertices = content.mesh.positions;

@@ -38,7 +38,7 @@ struct ScanOptions {
   CommonOptions common;
 };
 
-void check_outputs(const ScanOptions& options) {
+Outputs outputs_of(const ScanOptions& options) {
   Outputs outputs;
   if (options.output) outputs.add("-o", *options.output, {"ply", "obj", "off", "stl"});
   if (options.range_image) outputs.add("--range-image", *options.range_image, {"pfm"});
@@ -54,6 +54,7 @@ void check_outputs(const ScanOptions& options) {
     if (options.into) needed.push_back(*options.into);
     outputs.refuse_overwriting(needed);
   }
+  return outputs;
 }
 
 /// The depth buffer as drawn: window z in [0, 1), kNoSample where nothing is.
@@ -97,9 +98,10 @@ void print_summary(Console& console, const Scene& scene, const AddScan& command,
 
 void scan(const ScanOptions& options, const Context& context) {
   const auto rasterizer = make_rasterizer(options.common.backend);
-  check_outputs(options);
+  const Outputs outputs = outputs_of(options);
   Console console(options.common.quiet, context.stop);
   const SceneInput input = read_inputs(options.inputs, console);
+  if (options.session) outputs.refuse_overwriting(files_of(input));
   TriangleMesh initial;
   if (options.into) {
     initial = read_mesh(*options.into);
@@ -118,15 +120,14 @@ void scan(const ScanOptions& options, const Context& context) {
   console.end_task();
   progress.check_stop();
 
+  std::optional<SessionFile> file;
+  if (options.session) file = record_session(options.inputs, input, options.into, {command});
   write_output([&] { write_images(options, input.scene, *session.last_scan()); });
   if (options.output) {
     require_faces(*session.mesh(), *options.output, "nothing of the input is seen and taken");
     write_output([&] { write_mesh(*options.output, *session.mesh(), options.file); });
   }
-  if (options.session) {
-    const SessionFile file = record_session(options.inputs, input, options.into, {command});
-    write_output([&] { write_session(*options.session, file); });
-  }
+  if (file) write_output([&] { write_session(*options.session, *file); });
   print_summary(console, input.scene, command, report, *session.mesh());
 }
 

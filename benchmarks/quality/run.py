@@ -303,12 +303,11 @@ class Bench:
         """The input file, and the truth and the cloud to judge by (or None)."""
         if isinstance(case.source, Sampled):
             cloud, truth = self.path(case.name, '_in.ply'), self.path(case.name, '_truth.ply')
-            if not (os.path.exists(cloud) and os.path.exists(truth)):
-                subprocess.run([sys.executable, os.path.join(self.args.shared, 'eval', 'sample.py'),
-                                os.path.join(self.data, case.source.mesh), cloud, '--points',
-                                str(case.source.points), '--seed', str(case.source.seed),
-                                '--noise', str(case.source.noise), '--truth', truth],
-                               check=True)
+            subprocess.run([sys.executable, os.path.join(self.args.shared, 'eval', 'sample.py'),
+                            os.path.join(self.data, case.source.mesh), cloud, '--points',
+                            str(case.source.points), '--seed', str(case.source.seed),
+                            '--noise', str(case.source.noise), '--truth', truth],
+                           check=True)
             return cloud, truth, cloud
         if isinstance(case.source, Scanned):
             cloud, truth = self.path(case.name, '_in.ply'), self.path(case.name, '_truth.ply')
@@ -487,6 +486,9 @@ def main():
     parser.add_argument('--list', action='store_true', help='print the names of the cases')
     args = parser.parse_args()
     chosen = [case for case in CASES if not args.only or any(part in case.name for part in args.only)]
+    if not chosen:
+        print('run.py: no case has such a name', file=sys.stderr)
+        return 2
     if args.list:
         print('\n'.join(case.name for case in chosen))
         return 0

@@ -85,6 +85,10 @@ def main():
     parser.add_argument('--jobs', type=int, default=os.cpu_count(), help='meshed at a time')
     parser.add_argument('--only', action='append', help="a part of a body's name")
     args = parser.parse_args()
+    chosen = [name for name in BODIES if not args.only or any(part in name for part in args.only)]
+    if not chosen or args.seeds < 1:
+        print('seeds.py: nothing is chosen', file=sys.stderr)
+        return 2
     if not are_there(args, 'seeds.py'):
         return 2
     os.makedirs(args.out, exist_ok=True)
@@ -93,9 +97,7 @@ def main():
     print('| body | components, genus | right | seeds of the others |')
     print('|---|---|---|---|')
     all_right = True
-    for name in BODIES:
-        if args.only and not any(part in name for part in args.only):
-            continue
+    for name in chosen:
         with ThreadPoolExecutor(args.jobs) as pool:
             results = dict(zip(seeds, pool.map(lambda seed: of_seed(name, seed, args), seeds)))
         all_right = row(name, results) and all_right

@@ -78,6 +78,8 @@ constexpr double kMeanOfTolerance = 0.5;
 /// Of coarsened faces: long triangles stay long (20 degrees), and vertices on creases there.
 constexpr double kCoarseSmallAngle = 0.342;
 constexpr double kCoarseHold = 0.001;
+/// Times: of more triangles than these all edges would be shorter than a quarter of what they are.
+constexpr std::size_t kMostFiner = 16;
 constexpr int kCoarsenRounds = 3;  ///< again, where triangles crossed
 /// Of an edge: averaged over the points around a vertex, less than what a surface bulges that bends
 /// by a tenth of a radian over a triangle.
@@ -447,6 +449,8 @@ FinishResult finish(TriangleMesh mesh, const SeenPoints& cloud, const FinishOpti
   check(options);
   FinishResult result;
   if (mesh.empty()) return result;
+  check_range("finish: triangles", static_cast<double>(options.triangles), 0.0,
+              static_cast<double>(kMostFiner * mesh.triangles.size()));
   progress.at("finish", 0.0);
   const double h = options.pixel_size;
   std::optional<TriangleMesh> given;

@@ -22,7 +22,8 @@ struct FinishOptions {
   double narrow_width = 3.0;        ///< in h: cracks up to this are closed whatever their length
   int rounds = 8;                   ///< of {cut self-intersections, bridge, fill}, at most
   int relaxations = 8;              ///< of {split, collapse, flip, relax, project}
-  std::size_t triangles = 0;    ///< target of `full`, met within a few percent; 0: as many as come
+  std::size_t triangles = 0;    ///< target of `full`, met within a few percent, up to 16 times as
+                                ///< many as there are; 0: as many as come
   double flat_tolerance = 0.0;  ///< in h: `full` lets triangles grow where they stay within this of
                                 ///< the surface; 0, or with `triangles`: as many as are asked for
   bool snap_features = true;    ///< sharp edges and corners
@@ -83,8 +84,8 @@ struct FinishResult {
 /// @param cloud the points that were scanned (and area samples of polygons), to which vertices are
 ///     fitted and which give evidence; may be empty: no fitting. Without votes no face is
 ///     contradicted.
-/// @throws InvalidArgument if pixel_size is not positive and finite, or another length is negative
-///     or not finite.
+/// @throws InvalidArgument if pixel_size is not positive and finite, another length is negative or
+///     not finite, or more triangles are asked for than can be made.
 [[nodiscard]] FinishResult finish(TriangleMesh mesh, const SeenPoints& cloud,
                                   const FinishOptions& options, const Progress& progress = {});
 

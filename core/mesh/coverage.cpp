@@ -126,7 +126,7 @@ class FaceGrid {
     for (std::size_t cell = 0; cell < is_asked_.size(); ++cell)
       first_[cell + 1] += first_[cell];
     faces_.resize(first_.back());
-    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
     for (std::size_t face = 0; face < mesh_.triangles.size(); ++face) {
       for_each_cell(mesh_.triangles[face], [&](std::size_t cell) {
         if (is_asked_[cell] != 0) faces_[next[cell]++] = static_cast<std::uint32_t>(face);
@@ -140,7 +140,7 @@ class FaceGrid {
   double cell_size_ = 1.0;
   std::array<int, 3> count_{1, 1, 1};
   std::vector<std::uint8_t> is_asked_;  ///< of each cell
-  std::vector<std::uint32_t> first_;    ///< where each cell's faces begin in faces_
+  std::vector<std::size_t> first_;      ///< where each cell's faces begin in faces_
   std::vector<std::uint32_t> faces_;
 };
 

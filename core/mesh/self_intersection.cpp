@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -21,6 +22,9 @@ constexpr double kSidesPerCell = 1.5;
 constexpr std::size_t kCellsPerTriangle = 16;
 /// A triangle over more cells than this is compared with all others instead of being entered.
 constexpr std::size_t kLargeTriangleCells = 4096;
+/// Where triangles are in more cells than this on average, as slivers across the axes are, cells
+/// grow: that bounds the memory of the lists.
+constexpr std::size_t kMostEntriesPerTriangle = 64;
 constexpr std::size_t kCellsPerBlock = 4096;
 constexpr std::size_t kTrianglesPerBlock = 16384;
 
@@ -56,8 +60,11 @@ class CellGrid {
       constexpr double kGrowth = 1.25;
       cell *= kGrowth;
     }
+    cell_ = cell;
     per_unit_ = 1.0 / cell;
   }
+
+  [[nodiscard]] double cell() const { return cell_; }
 
   [[nodiscard]] std::size_t cell_count() const {
     return static_cast<std::size_t>(dims_[0]) * static_cast<std::size_t>(dims_[1]) *
@@ -102,6 +109,7 @@ class CellGrid {
   }
 
   Vec3 lower_;
+  double cell_ = 1.0;  ///< side
   double per_unit_ = 1.0;
   std::array<int, 3> dims_{1, 1, 1};
 };
@@ -169,6 +177,34 @@ std::vector<CellRange> ranges_of(const Triangles& triangles, const CellGrid& gri
       ranges[i] = grid.range_of(triangles.box(i));
   });
   return ranges;
+}
+
+/// A grid, and the cells that each triangle's box meets.
+struct Layout {
+  CellGrid grid;
+  std::vector<CellRange> ranges;
+
+  /// How many entries the triangles will have in the cells.
+  [[nodiscard]] std::size_t entry_count() const {
+    std::size_t sum = 0;
+    for (const CellRange& range : ranges) {
+      const std::size_t count = range.count();
+      sum += count > kLargeTriangleCells ? 0 : count;
+    }
+    return sum;
+  }
+};
+
+Layout layout_of(const Triangles& triangles) {
+  const std::size_t most = std::min<std::size_t>(kMostEntriesPerTriangle * triangles.size(),
+                                                 std::numeric_limits<std::uint32_t>::max());
+  double cell = kSidesPerCell * triangles.mean_side();
+  for (;;) {
+    const CellGrid grid(triangles.bounds(), cell, kCellsPerTriangle * triangles.size());
+    Layout layout{grid, ranges_of(triangles, grid)};
+    if (grid.cell_count() == 1 || layout.entry_count() <= most) return layout;
+    cell = 2.0 * grid.cell();
+  }
 }
 
 /// Calls body(lower, upper) for slabs of layers of cells, in parallel: what it writes to cells of
@@ -364,9 +400,7 @@ std::vector<std::uint32_t> around(const TriangleMesh& mesh,
 std::vector<Pair> find_pairs(const Triangles& triangles, std::span<const std::uint8_t> changed) {
   std::vector<Pair> pairs;
   if (triangles.size() == 0) return pairs;
-  const std::size_t max_cells = kCellsPerTriangle * triangles.size();
-  const CellGrid grid(triangles.bounds(), kSidesPerCell * triangles.mean_side(), max_cells);
-  const std::vector<CellRange> ranges = ranges_of(triangles, grid);
+  const auto [grid, ranges] = layout_of(triangles);
   std::vector<std::uint8_t> wanted;
   if (!changed.empty()) wanted = cells_asked(triangles, ranges, grid, changed);
   const CellLists lists = sort_into_cells(triangles, ranges, grid, wanted);

@@ -263,6 +263,18 @@ TEST_CASE("a session is not recorded over the input it needs", "[apps]") {
   CHECK((load(folder / "sphere.ply") == before));
 }
 
+TEST_CASE("nor over a scan that a list names", "[apps]") {
+  const TemporaryFolder folder;
+  store_sphere(folder / "a.ply");
+  folder.store("scans.conf", "bmesh a.ply 0 0 0 0 0 0 1\n");
+  const std::string before = load(folder / "a.ply");
+  const RunResult result =
+      run({"mesh", folder / "scans.conf", "-o", folder / "a.ply", "--session", folder / "s.json"});
+  CHECK(result.code == 1);
+  CHECK_THAT(result.err, Contains("would overwrite an input"));
+  CHECK((load(folder / "a.ply") == before));
+}
+
 TEST_CASE("points and polygons of several files make one mesh", "[apps]") {
   const TemporaryFolder folder;
   store_sphere(folder / "sphere.ply");

@@ -474,7 +474,7 @@ TEST_CASE("finish gives the same bits for any number of threads") {
   REQUIRE(one == four);
 }
 
-TEST_CASE("finish refuses lengths out of range") {
+TEST_CASE("finish refuses lengths and counts out of range") {
   FinishOptions options = options_for(4, FinishMethod::fast);
   const double infinity = std::numeric_limits<double>::infinity();
   SECTION("a hole") {
