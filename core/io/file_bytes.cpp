@@ -115,7 +115,8 @@ void FileBytes::unpack() {
   std::string unpacked;
   std::size_t taken = 0;
   std::size_t filled = 0;
-  while (taken < bytes_.size()) {
+  int result = Z_OK;
+  while (result != Z_STREAM_END || taken < bytes_.size()) {
     if (filled == unpacked.size()) unpacked.resize(std::max(2 * filled, 4 * bytes_.size()));
     const std::size_t input = std::min(bytes_.size() - taken, kInflateStep);
     const std::size_t room = std::min(unpacked.size() - filled, kInflateStep);
@@ -124,7 +125,7 @@ void FileBytes::unpack() {
     stream.avail_in = static_cast<uInt>(input);
     stream.next_out = reinterpret_cast<Bytef*>(unpacked.data() + filled);
     stream.avail_out = static_cast<uInt>(room);
-    const int result = inflate(&stream, Z_NO_FLUSH);
+    result = inflate(&stream, Z_NO_FLUSH);
     taken += input - stream.avail_in;
     filled += room - stream.avail_out;
     const std::string place = "byte " + std::to_string(taken) + " of the packed file: ";
@@ -132,7 +133,6 @@ void FileBytes::unpack() {
       // A gzip file may have several members, one after another, and padding of zeros.
       const std::size_t next = bytes_.find_first_not_of('\0', taken);
       taken = next == std::string_view::npos ? bytes_.size() : next;
-      if (taken == bytes_.size()) break;
       if (inflateReset(&stream) != Z_OK) fail("zlib cannot be restarted");
     } else if (result != Z_OK && result != Z_BUF_ERROR) {
       fail(place + "corrupt gzip data" +

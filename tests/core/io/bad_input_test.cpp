@@ -237,6 +237,22 @@ TEST_CASE("A cut or corrupt .gz is refused at every length") {
   CHECK(refusal(folder.store("a.xyz.gz", packed("", folder))).find("empty") != std::string::npos);
 }
 
+TEST_CASE("A .gz cut where its content fills the memory for it exactly is refused") {
+  // A byte of this file stands for up to a thousand bytes of text, so wherever the memory grows
+  // there is a cut at which it is just full.
+  std::string text = kPoints;
+  for (int i = 0; i < 20000; ++i)
+    text += "1.5 2 3\n";
+  const TemporaryFolder folder;
+  const std::string whole = packed(text, folder);
+  REQUIRE(refusal(folder.store("a.xyz.gz", whole)).empty());
+  for (std::size_t length = 1; length < whole.size(); ++length) {
+    CAPTURE(length);
+    const std::string message = refusal(folder.store("a.xyz.gz", whole.substr(0, length)));
+    CHECK(message.find("the file is cut") != std::string::npos);
+  }
+}
+
 TEST_CASE("A mesh without a face is refused as a mesh") {
   const TemporaryFolder folder;
   CHECK_THROWS_AS(read_mesh(folder.store("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n")), IoError);
