@@ -57,10 +57,20 @@ Json json_of_inputs(const std::vector<SessionInput>& inputs, const fs::path& fol
   return list;
 }
 
-/// Parses, and refuses a key that an object has twice, which the parser would accept.
+constexpr int kMostLevels = 64;  ///< far more than a session has; to go through it is recursive
+
+/// Parses, and refuses what the parser would accept: a key that an object has twice, and a nesting
+/// so deep that the stack could overflow.
 Json parse(const FileBytes& file) {
   std::vector<std::set<std::string>> keys;
-  const auto check = [&](int, Json::parse_event_t event, const Json& parsed) {
+  const auto check = [&](int levels_above, Json::parse_event_t event, const Json& parsed) {
+    const bool is_start =
+        event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start;
+    if (is_start && levels_above >= kMostLevels) {
+      refuse("",
+             "arrays and objects must be nested at most " + std::to_string(kMostLevels) + " deep",
+             Json());
+    }
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
     if (event == Json::parse_event_t::object_end) keys.pop_back();
     if (event == Json::parse_event_t::key &&

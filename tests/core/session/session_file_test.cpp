@@ -266,6 +266,20 @@ TEST_CASE("a wrong session is refused with file, place, rule and value", "[sessi
   }
 }
 
+TEST_CASE("a session nested deeper than 64 levels is refused, however deep", "[session_file]") {
+  const std::string rule = "/: arrays and objects must be nested at most 64 deep";
+  CHECK_THAT(message_of(std::string(64, '[') + std::string(64, ']')),
+             Catch::StartsWith("/: must be an object"));
+  CHECK_THAT(message_of(std::string(65, '[') + std::string(65, ']')), Catch::StartsWith(rule));
+  constexpr std::size_t kDeep = 1'000'000;
+  CHECK_THAT(message_of(std::string(kDeep, '[') + std::string(kDeep, ']')),
+             Catch::StartsWith(rule));
+  std::string objects;
+  for (int i = 0; i < 65; ++i)
+    objects += R"({"a":)";
+  CHECK_THAT(message_of(objects), Catch::StartsWith(rule));
+}
+
 TEST_CASE("long values are cut in messages", "[session_file]") {
   const std::string text = message_of_command(R"("command": ")" + std::string(10000, 'x') + '"');
   CHECK(text.size() < 300);
