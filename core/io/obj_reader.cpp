@@ -23,6 +23,11 @@ bool is_known_statement(std::string_view keyword) {
   return std::find(kKnown.begin(), kKnown.end(), keyword) != kKnown.end();
 }
 
+/// Does `line` go on with the next one? A backslash at the end of a comment is part of it.
+bool goes_on(std::string_view line) {
+  return line.ends_with('\\') && line.find('#') == std::string_view::npos;
+}
+
 class ObjReader {
  public:
   ObjReader(const FileBytes& file, RawGeometry& geometry)
@@ -34,7 +39,7 @@ class ObjReader {
     for (std::size_t number = 0; lines_.next(line); ++number) {
       if (number % kBlock == 0) progress.check_stop();
       place_ = line.data();
-      if (line.ends_with('\\')) {
+      if (goes_on(line)) {
         joined.clear();
         join_lines(line, joined);
         line = joined;
@@ -53,7 +58,7 @@ class ObjReader {
  private:
   /// Puts a line that goes on behind a backslash together with the lines that follow.
   void join_lines(std::string_view line, std::string& joined) {
-    while (line.ends_with('\\')) {
+    while (goes_on(line)) {
       joined.append(line.substr(0, line.size() - 1)).push_back(' ');
       if (!lines_.next(line)) return;
     }

@@ -200,6 +200,14 @@ TEST_CASE("OBJ corners count from 1 or backwards and may carry textures and norm
   CHECK(input.reports[0].notes.size() == 2);  // the unused vertex, the line element
 }
 
+TEST_CASE("A backslash at the end of an OBJ comment does not join the next line to it") {
+  const InputFile input = read_text("a.obj",
+                                    "# C:\\scans\\\nv 0 0 0\n \t# more\\\r\nv 1 0 0\n"
+                                    "v 0 1 0 # here\\\nv 0 \\\n0 1 # there\\\nv 1 1 1\n");
+  CHECK(points(input.items.at(0)) ==
+        std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}});
+}
+
 TEST_CASE("OBJ vertices are points without faces; with faces only point elements are") {
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
   const InputFile cloud = read_text("a.obj", vertices);
