@@ -1,5 +1,6 @@
 #include "core/io/text_fields.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <limits>
@@ -14,15 +15,26 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t';
 }
 
-/// A number too large or too small for double, as infinity or zero: by the sign of its exponent or,
-/// without one, by whether anything but zeros stands before the point.
-double out_of_range_value(std::string_view digits) {
-  const bool is_negative = digits.front() == '-';
-  const std::size_t exponent = digits.find_first_of("eE");
-  bool is_small = digits.find_first_of("123456789") > digits.find('.');
-  if (exponent != std::string_view::npos) is_small = digits.substr(exponent + 1).front() == '-';
-  const double size = is_small ? 0.0 : std::numeric_limits<double>::infinity();
-  return is_negative ? -size : size;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The whole number behind the 'e' of a number; infinite if it does not fit 64 bits.
+double exponent_of(std::string_view text) {
+  const char* at = text.data();
+  std::int64_t exponent = 0;
+  if (parse_integer(at, text.data() + text.size(), exponent)) return static_cast<double>(exponent);
+  return text.front() == '-' ? -kInfinity : kInfinity;
+}
+
+/// A number too large or too small for double, as infinity or zero: by the power of ten of its
+/// first digit that is not zero. Such a power is far from 0, so it need not be exact.
+double out_of_range_value(std::string_view number) {
+  const std::size_t mantissa_end = std::min(number.find_first_of("eE"), number.size());
+  const std::size_t point = std::min(number.find('.'), mantissa_end);
+  const std::size_t first_digit = number.find_first_of("123456789");
+  double power = static_cast<double>(point) - static_cast<double>(first_digit);
+  if (mantissa_end != number.size()) power += exponent_of(number.substr(mantissa_end + 1));
+  const double size = power < 0.0 ? 0.0 : kInfinity;
+  return number.front() == '-' ? -size : size;
 }
 
 constexpr std::uint64_t kExactInteger = std::uint64_t{1} << 53U;  ///< doubles hold all up to here

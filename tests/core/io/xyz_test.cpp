@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <clocale>
 #include <cmath>
+#include <limits>
 #include <locale>
 #include <string>
 #include <vector>
@@ -16,6 +17,8 @@ namespace rangezip {
 namespace {
 
 const std::vector<Vec3> kExpected{{1, 2.5, -3}, {0, 0.125, 400}, {-7, 8, 0.5}};
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::vector<Vec3> read_points(const std::string& name, const std::string& text) {
   const test::TemporaryFolder folder;
@@ -50,6 +53,13 @@ class CommaLocale {
  private:
   std::locale before_;
 };
+
+double value_of(const std::string& text) {
+  const char* at = text.data();
+  double value = 0.0;
+  REQUIRE(parse_number(at, text.data() + text.size(), value));
+  return value;
+}
 
 }  // namespace
 
@@ -137,14 +147,22 @@ TEST_CASE("parse_number reads the same double as strtod") {
   }
 }
 
+TEST_CASE("parse_number takes a number beyond double for zero or infinity by its size") {
+  const std::string zeros(400, '0');
+  CHECK(value_of("1" + zeros + "e-5") == kInfinity);
+  CHECK(value_of("-1" + zeros + ".5e-5") == -kInfinity);
+  CHECK(value_of("0." + zeros + "1e5") == 0.0);
+  CHECK(std::signbit(value_of("-0." + zeros + "1e+5")));
+  CHECK(value_of(zeros + "1e999") == kInfinity);
+  CHECK(value_of("1" + zeros + "e-999") == 0.0);
+  CHECK(value_of("0." + zeros + "1e999") == kInfinity);
+  CHECK(value_of("1e99999999999999999999") == kInfinity);
+  CHECK(value_of("1e-99999999999999999999") == 0.0);
+  CHECK(value_of("100e9223372036854775807") == kInfinity);
+  CHECK(value_of("0e99999999999999999999") == 0.0);
+}
+
 TEST_CASE("parse_number knows the edges of what a number is") {
-  const auto value_of = [](const std::string& text) {
-    const char* at = text.data();
-    double value = 0.0;
-    REQUIRE(parse_number(at, text.data() + text.size(), value));
-    return value;
-  };
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   CHECK(value_of("+1.5") == 1.5);
   CHECK(std::signbit(value_of("-0")));
   CHECK(value_of(".5") == 0.5);
