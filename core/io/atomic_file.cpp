@@ -27,6 +27,12 @@ std::filesystem::path behind_links(const std::filesystem::path& path) {
   return error ? path : real;
 }
 
+/// A name of its own: one made of the target's could be too long.
+std::filesystem::path temporary_beside(const std::filesystem::path& target, int attempt) {
+  return target.parent_path() /
+         (".rangezip-" + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".tmp");
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(behind_links(target)) {
@@ -41,8 +47,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(behind_lin
   } else {
     constexpr int kMostAttempts = 100;  // names left behind by a killed process are passed over
     for (int attempt = 0; descriptor_ < 0 && attempt < kMostAttempts; ++attempt) {
-      temporary_ = target_;
-      temporary_ += "." + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".tmp";
+      temporary_ = temporary_beside(target_, attempt);
       descriptor_ =
           ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kNewFileMode);
       if (descriptor_ < 0 && errno != EEXIST) break;

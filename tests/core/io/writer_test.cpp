@@ -2,6 +2,7 @@
 #include <sys/stat.h>
 
 #include <catch2/catch.hpp>
+#include <climits>
 #include <cmath>
 #include <csignal>
 #include <string>
@@ -199,6 +200,16 @@ TEST_CASE("AtomicFile keeps the target until commit and removes what is not comm
   file.write(std::string(1000000, 'x'));
   file.commit();
   CHECK(load(path) == "new " + std::string(1000000, 'x'));
+  CHECK(folder.count() == 1);
+}
+
+TEST_CASE("AtomicFile takes a target whose name is as long as names may be") {
+  const TemporaryFolder folder;
+  const std::string name(NAME_MAX, 'a');
+  AtomicFile file(folder / name);
+  file.write("new");
+  file.commit();
+  CHECK(load(folder / name) == "new");
   CHECK(folder.count() == 1);
 }
 
