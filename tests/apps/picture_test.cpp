@@ -63,6 +63,23 @@ TEST_CASE("render draws meshes and clouds together, the same with any number of 
   CHECK(std::count(picture.pixels().begin(), picture.pixels().end(), white) < 300 * 200 * 3 / 4);
 }
 
+TEST_CASE("a list of one mesh is told and drawn as the mesh", "[apps]") {
+  const TemporaryFolder folder;
+  write_mesh(folder / "bowl.ply", shapes::to_mesh(shapes::bowl()));
+  folder.store("list.conf", "bmesh bowl.ply 0 0 0 0 0 0 1\n");
+  const RunResult told = run({"info", folder / "list.conf"});
+  CAPTURE(told.err);
+  CHECK(told.code == 0);
+  CHECK_THAT(told.out, Contains("bowl.ply"));
+  const auto draw = [&](const std::string& input) {
+    const RunResult drawn = run({"render", folder / input, "--flat", "-o", folder / "a.png"});
+    CAPTURE(drawn.err);
+    REQUIRE(drawn.code == 0);
+    return load(folder / "a.png");
+  };
+  CHECK(draw("list.conf") == draw("bowl.ply"));
+}
+
 TEST_CASE("render --zoom enlarges the surroundings of a place of the picture", "[apps]") {
   // Two plates far apart, one lower left, one upper right.
   TriangleMesh plates;

@@ -489,6 +489,9 @@ TEST_CASE("finish refuses lengths and counts out of range") {
   SECTION("a gap") {
     options.gap = infinity;
   }
+  SECTION("triangles") {
+    options.triangles = 17 * testing::sphere(4).triangles.size();
+  }
   REQUIRE_THROWS_AS(finish(testing::sphere(4), {}, options), InvalidArgument);
 }
 

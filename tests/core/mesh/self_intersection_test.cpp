@@ -128,6 +128,27 @@ TEST_CASE("the grid finds the pairs that comparing all with all finds") {
   REQUIRE(self_intersections(mesh) == expected);
 }
 
+TEST_CASE(
+    "slivers across the axes, which are in very many cells, are found to cross what they do") {
+  constexpr std::uint64_t kSeed = 5;
+  constexpr std::size_t kCount = 3000;
+  TriangleMesh mesh = soup(kSeed, kCount, 0.004);
+  for (std::size_t i = 0; i < kCount; i += 33) {
+    const Vec3 start = 0.3 * mesh.positions[3 * i];
+    mesh.positions[3 * i] = start;
+    mesh.positions[3 * i + 1] = start + Vec3(0.6, 0.6, 0.61);
+    mesh.positions[3 * i + 2] = start + Vec3(0.6, 0.61, 0.6);
+  }
+  Pairs expected;
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    for (std::uint32_t j = i + 1; j < kCount; ++j) {
+      if (overlap(mesh, mesh.triangles[i], mesh.triangles[j])) expected.emplace_back(i, j);
+    }
+  }
+  REQUIRE(!expected.empty());
+  REQUIRE(self_intersections(mesh) == expected);
+}
+
 TEST_CASE("only pairs with a changed triangle are reported when asked so") {
   const TriangleMesh mesh = soup(5, 2000, 0.05);
   const std::vector<std::uint32_t> changed{7, 97, 500, 3};
