@@ -72,6 +72,11 @@ class PlyReader {
            std::to_string(vertex_count_) + " vertices";
   }
 
+  [[nodiscard]] static std::string count_rule(const PlyProperty& property, std::int64_t count) {
+    return "the list " + quote(property.name) + " of " + std::to_string(count) +
+           " items does not fit in the file";
+  }
+
   /// Takes the list in items_ as a polygon or a strip. Indices are checked before.
   void take_list(Role role) {
     ++geometry_.polygons;
@@ -185,7 +190,7 @@ class AsciiReader : private PlyReader {
         continue;
       }
       items_.clear();
-      const std::int64_t count = read_integer(element.properties[i], fields);
+      const std::int64_t count = read_count(element.properties[i], fields);
       for (std::int64_t k = 0; k < count; ++k) {
         const char* const place = fields.position();
         const std::int64_t index = read_integer(element.properties[i], fields);
@@ -198,11 +203,18 @@ class AsciiReader : private PlyReader {
   }
 
   void skip(const PlyProperty& property, TextFields& fields) const {
-    std::int64_t values = 1;
-    if (property.is_list) values = read_integer(property, fields);
+    const std::int64_t values = property.is_list ? read_count(property, fields) : 1;
     for (std::int64_t k = 0; k < values; ++k) {
       if (fields.word().empty()) fail_value(property, fields);
     }
+  }
+
+  /// The length of a list. One that is too long is noticed at the end of the line.
+  [[nodiscard]] std::int64_t read_count(const PlyProperty& property, TextFields& fields) const {
+    const char* const place = fields.position();
+    const std::int64_t count = read_integer(property, fields);
+    if (count < 0) file_.fail_at_line(place, count_rule(property, count));
+    return count;
   }
 
   [[nodiscard]] double read_number(const PlyProperty& property, TextFields& fields) const {
@@ -414,9 +426,7 @@ class BinaryReader : private PlyReader {
     at_ += size_of(property.count_type);
     const std::size_t room = left() / size_of(property.type);
     if (count < 0.0 || count > static_cast<double>(room)) {
-      file_.fail_at_byte(place, "the list " + quote(property.name) + " of " +
-                                    std::to_string(static_cast<std::int64_t>(count)) +
-                                    " items does not fit in the file");
+      file_.fail_at_byte(place, count_rule(property, static_cast<std::int64_t>(count)));
     }
     return static_cast<std::size_t>(count);
   }

@@ -253,6 +253,21 @@ TEST_CASE("A .gz cut where its content fills the memory for it exactly is refuse
   }
 }
 
+TEST_CASE("A PLY list of negative length is refused in every encoding, also where it is skipped") {
+  const TemporaryFolder folder;
+  const std::string rule = "the list 'vertex_indices' of -1 items does not fit in the file";
+  const std::string face = "element face 1\nproperty list char int vertex_indices\n";
+  const std::string text = kPlyHead + kThreeVertices + face;
+  CHECK(refusal(folder.store("a.ply", text + "end_header\n" + kPoints + "-1\n"))
+            .find("line 13: " + rule) != std::string::npos);
+  CHECK(refusal(folder.store("a.ply", text + "property list char int skipped\nend_header\n" +
+                                          kPoints + "3 0 1 2 -7\n"))
+            .find("line 14: the list 'skipped' of -7 items does not fit") != std::string::npos);
+  const std::string binary = "ply\nformat binary_little_endian 1.0\n" + kThreeVertices + face;
+  CHECK(refusal(folder.store("a.ply", binary + "end_header\n" + std::string(36, '\0') + '\xff'))
+            .find(rule) != std::string::npos);
+}
+
 TEST_CASE("A mesh without a face is refused as a mesh") {
   const TemporaryFolder folder;
   CHECK_THROWS_AS(read_mesh(folder.store("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n")), IoError);
