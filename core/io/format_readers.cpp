@@ -2,8 +2,10 @@
 
 #include <array>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
+#include "core/base/error.h"
 #include "core/io/text_fields.h"
 
 namespace rangezip {
@@ -24,29 +26,25 @@ constexpr std::array<std::pair<std::string_view, Reader>, 9> kReaders{{
     {"stl", read_stl},
 }};
 
-Reader reader_of(const std::string& type) {
+Reader reader_of(const std::filesystem::path& path) {
+  const std::string type = file_type(path);
+  std::string all_known;
   for (const auto& [known, reader] : kReaders) {
     if (known == type) return reader;
+    all_known += " ." + std::string(known);
   }
-  return nullptr;
+  throw IoError(path.string() + ": unknown type " + quote(type) + "; known are" + all_known);
 }
 
 }  // namespace
 
-bool is_geometry_type(const std::string& type) {
-  return reader_of(type) != nullptr;
+void check_geometry_type(const std::filesystem::path& path) {
+  std::ignore = reader_of(path);
 }
 
-RawGeometry read_geometry(const FileBytes& file, const std::string& type,
-                          PositionList::Precision precision, const std::optional<Vec3>& origin,
-                          const Progress& progress) {
-  const Reader reader = reader_of(type);
-  if (reader == nullptr) {
-    std::string known;
-    for (const auto& entry : kReaders)
-      known += " ." + std::string(entry.first);
-    file.fail("unknown type " + quote(type) + "; known are" + known);
-  }
+RawGeometry read_geometry(const FileBytes& file, PositionList::Precision precision,
+                          const std::optional<Vec3>& origin, const Progress& progress) {
+  const Reader reader = reader_of(file.name());
   RawGeometry geometry{.positions = PositionList(precision, origin)};
   reader(file, geometry, progress);
   return geometry;

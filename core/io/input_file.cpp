@@ -23,16 +23,15 @@ Mat4 translation(const Vec3& offset) {
 
 /// Reads about the origin that the reader foresees and, if the data turn out to have another one,
 /// once more about that: most files are read once, and never are more than the floats in memory.
-RawGeometry read_about_best_origin(const FileBytes& file, const std::string& type,
-                                   const Progress& progress) {
+RawGeometry read_about_best_origin(const FileBytes& file, const Progress& progress) {
   constexpr auto kPrecision = PositionList::Precision::local_float;
   Vec3 origin{0.0};
   {
-    RawGeometry geometry = read_geometry(file, type, kPrecision, std::nullopt, progress);
+    RawGeometry geometry = read_geometry(file, kPrecision, std::nullopt, progress);
     origin = geometry.positions.best_origin();
     if (origin == geometry.positions.origin()) return geometry;
   }
-  return read_geometry(file, type, kPrecision, origin, progress);
+  return read_geometry(file, kPrecision, origin, progress);
 }
 
 /// Drops the positions that are not finite; indices of the others move down.
@@ -91,8 +90,9 @@ std::string reason_for_nothing(const InputReport& report) {
 
 InputFile read_one(const std::filesystem::path& path, const Mat4& world_from_file,
                    const Progress& progress) {
+  check_geometry_type(path);
   const FileBytes file(path);
-  RawGeometry geometry = read_about_best_origin(file, file_type(path), progress);
+  RawGeometry geometry = read_about_best_origin(file, progress);
   InputReport report{.path = file.name(),
                      .format = geometry.format,
                      .polygons = geometry.polygons,
@@ -128,8 +128,7 @@ InputFile read_one(const std::filesystem::path& path, const Mat4& world_from_fil
 }  // namespace
 
 InputFile read_input(const std::filesystem::path& path, const Progress& progress) {
-  const std::string type = file_type(path);
-  if (type != kListType) return read_one(path, Mat4{1.0}, progress);
+  if (file_type(path) != kListType) return read_one(path, Mat4{1.0}, progress);
   const FileBytes file(path);
   InputFile all;
   for (const PlacedScan& scan : read_conf(file)) {

@@ -4,9 +4,9 @@
 namespace rangezip {
 
 TriangleMesh read_mesh(const std::filesystem::path& path) {
+  check_geometry_type(path);
   const FileBytes file(path);
-  RawGeometry geometry =
-      read_geometry(file, file_type(path), PositionList::Precision::exact, std::nullopt, {});
+  RawGeometry geometry = read_geometry(file, PositionList::Precision::exact, std::nullopt, {});
   TriangleMesh mesh;
   mesh.triangles = split_polygons(geometry).triangles;
   if (mesh.triangles.empty()) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -112,16 +113,17 @@ struct RawGeometry {
 /// Highest number of positions a file may have: indices have 32 bits, one value is kept free.
 inline constexpr std::size_t kMostPositions = 0xffff'ffffU;
 
-/// Reads `file`, whose type is `type` (file_type()), whatever format that is. Positions are stored
-/// about `origin`; without one, the reader chooses: see PositionList::best_origin().
+/// Reads `file` by the type in its name (file_type()). Positions are stored about `origin`; without
+/// one, the reader chooses: see PositionList::best_origin().
 /// @throws IoError naming file, place and rule
-[[nodiscard]] RawGeometry read_geometry(const FileBytes& file, const std::string& type,
-                                        PositionList::Precision precision,
+[[nodiscard]] RawGeometry read_geometry(const FileBytes& file, PositionList::Precision precision,
                                         const std::optional<Vec3>& origin,
                                         const Progress& progress);
 
-/// True if read_geometry() knows the type.
-[[nodiscard]] bool is_geometry_type(const std::string& type);
+/// For before a file is opened: what has no end, or unpacks to more than the memory, need not be
+/// read to be refused.
+/// @throws IoError if read_geometry() does not know the type of `path`.
+void check_geometry_type(const std::filesystem::path& path);
 
 /// The polygons as triangles, each within one polygon and in its orientation, in the order of the
 /// file.

@@ -268,6 +268,18 @@ TEST_CASE("A PLY list of negative length is refused in every encoding, also wher
             .find(rule) != std::string::npos);
 }
 
+TEST_CASE("A file of unknown type is refused without being opened") {
+  const TemporaryFolder folder;
+  const auto rule = Catch::Matchers::Contains("unknown type");
+  // Each of these would be refused for another reason, or read without end, if it were opened.
+  for (const std::filesystem::path& path : {std::filesystem::path("/dev/zero"), folder / "none.doc",
+                                            folder.store("a.zip.gz", "no gzip data")}) {
+    CAPTURE(path);
+    CHECK_THAT(refusal(path), rule);
+    CHECK_THROWS_WITH(read_mesh(path), rule);
+  }
+}
+
 TEST_CASE("A mesh without a face is refused as a mesh") {
   const TemporaryFolder folder;
   CHECK_THROWS_AS(read_mesh(folder.store("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n")), IoError);
