@@ -122,6 +122,7 @@ void print_info(const InfoOptions& options, const Context& context) {
     } else {
       print_mesh_or_cloud(console, path, options.check, progress);
     }
+    progress.check_stop();
   }
 }
 

@@ -89,7 +89,7 @@ function(expect_with_small_files pattern kept)
   file(GLOB before ${SCRATCH}/*)
   execute_process(COMMAND sh -c "ulimit -f 0; exec \"$@\"" sh ${PROGRAM} ${ARGN}
     WORKING_DIRECTORY ${SCRATCH} RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE err)
-  file(GLOB after ${SCRATCH}/*)
+  file(GLOB after ${SCRATCH}/* ${SCRATCH}/.rangezip-*)
   file(READ ${SCRATCH}/${kept} content)
   if(NOT result EQUAL 3 OR NOT err MATCHES "${pattern}" OR NOT before STREQUAL after
       OR NOT content STREQUAL "before")
@@ -111,10 +111,10 @@ endif()
 
 # Ended while it writes: neither the file nor a rest of it.
 execute_process(
-  COMMAND sh -c "\"$@\" & while kill -0 $! && ! ls ended.xyz.*; do sleep 0.01; done >/dev/null 2>&1
+  COMMAND sh -c "\"$@\" & while kill -0 $! && ! ls .rangezip-*.tmp; do sleep 0.01; done >/dev/null 2>&1
     kill -TERM $!; wait $!" sh ${PROGRAM} sample tetrahedron.obj -o ended.xyz --points 3000000
   WORKING_DIRECTORY ${SCRATCH} RESULT_VARIABLE result ERROR_VARIABLE err)
-file(GLOB rests ${SCRATCH}/ended*)
+file(GLOB rests ${SCRATCH}/ended* ${SCRATCH}/.rangezip-*)
 if(NOT result EQUAL 130 OR NOT err MATCHES "interrupted" OR rests)
   message(SEND_ERROR "sample ended while it writes: ${result}, ${err}, left: ${rests}")
 endif()
