@@ -16,7 +16,7 @@ namespace {
 /// Holes around which fewer edges fit need no new points.
 constexpr double kMinEdgesToRefine = 10.5;
 
-/// In lengths of the loop.
+/// Of new edges, in lengths of the loop.
 constexpr double kShortestEdge = 0.001;
 
 double perimeter_of(const std::vector<Vec3>& loop) {

@@ -40,9 +40,9 @@ struct HoleFill {
 /// Fills one loop: least sharp triangulation (core/finish/loop_triangulation.h), or the one with
 /// the shortest edges, then refined and shaped, unless ten edges go around it or fewer. Never makes
 /// an edge that the mesh already has. Empty if there is no such triangulation.
-/// @param edge_length of new edges, model units; 0: as long as those around the hole. Not shorter
-/// than
-///     these and a thousandth of the loop, which bounds how many there are
+/// @param edge_length of new edges, model units; 0: as long as those around the hole. Edges are not
+///     shorter than the mean of these or a thousandth of the loop, whichever is less: that bounds
+///     how many there are
 /// @param positions of the table's vertices; more may follow
 /// @param evidence points to air, which a fill avoids
 /// @param memo of triangulations of the same cloud; none: nothing is remembered
