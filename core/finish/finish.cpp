@@ -216,7 +216,8 @@ void grow_and_close(TriangleMesh& mesh, const Growth& growth, double in_the_way,
   const FinishOptions& options = growth.options;
   const RegrowOptions grown{.pixel_size = options.pixel_size,
                             .in_the_way = in_the_way,
-                            .only_outwards = !options.narrow_gaps};
+                            .only_outwards = !options.narrow_gaps,
+                            .is_body = !options.open_sheet};
   const TriangleMesh start = options.open_sheet ? mesh : TriangleMesh{};
   report.regrown_faces += grow(mesh, growth, grown);
   close_grown(mesh, start, crossings_of(mesh, growth.clean), growth, report);

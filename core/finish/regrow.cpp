@@ -13,6 +13,7 @@
 #include "core/finish/clean_topology.h"
 #include "core/finish/components.h"
 #include "core/finish/corner_table.h"
+#include "core/finish/facing_inwards.h"
 #include "core/finish/flagged_pieces.h"
 #include "core/finish/grow_over.h"
 #include "core/finish/inside_out.h"
@@ -45,7 +46,8 @@ constexpr double kVoidRadiusInVerySparse = 1.15;
 /// In square h: of faces that have grown and that hang together, around a rim, where points of both
 /// sides look the way of one.
 constexpr double kByChance = 10.0;
-constexpr double kAroundWrong = 4.0;         ///< in h: of more, where no face is to grow inside out
+constexpr double kAroundWrong = 4.0;  ///< in h: of more, where no face is to grow inside out
+constexpr double kFullVote = 127.0;
 constexpr std::size_t kSpacingPlaces = 200;  ///< that tell whether points are sparse
 constexpr int kSmoothRounds = 3;
 constexpr double kHardlyNoise = 0.08;  ///< in h: less is left in
@@ -90,20 +92,27 @@ void drop_inside_out(TriangleMesh& mesh, const SeenPoints& seen, const PointGrid
   remove_triangles(mesh.triangles, inside_out_faces(mesh, faces, seen, kOwnPoints * h));
 }
 
-/// Centroids of faces that have grown inside out, and hang together.
-/// @param first of the faces that have grown
-std::vector<Vec3> grown_inside_out(const TriangleMesh& mesh, std::size_t first,
-                                   const SeenPoints& seen, double h) {
-  std::vector<std::uint32_t> grown(mesh.triangles.size() - first);
-  std::iota(grown.begin(), grown.end(), static_cast<std::uint32_t>(first));
-  std::vector<std::uint8_t> flags = inside_out_faces(mesh, grown, seen, kOwnPoints * h);
+/// Where faces have grown inside out that hang together, and from where the points there are seen.
+struct WrongPlaces {
+  std::vector<Vec3> places;  ///< centroids
+  std::vector<std::array<std::int8_t, 3>> votes;
+
+  [[nodiscard]] SeenPoints seen() const { return {places, votes}; }
+};
+
+/// @param flags of faces that are inside out; those of small pieces are cleared
+WrongPlaces wrong_places(const TriangleMesh& mesh, std::vector<std::uint8_t> flags, double h) {
   keep_pieces(mesh, flags,
               [&](const FlaggedPiece& piece) { return piece.area > kByChance * h * h; });
-  std::vector<Vec3> places;
-  for (const std::uint32_t f : grown) {
-    if (flags[f] != 0) places.push_back(centroid_of(mesh.positions, mesh.triangles[f]));
+  WrongPlaces wrong;
+  for (std::size_t f = 0; f < flags.size(); ++f) {
+    if (flags[f] == 0) continue;
+    const Vec3 vote = -kFullVote * unit_normal(mesh.positions, mesh.triangles[f]);
+    wrong.places.push_back(centroid_of(mesh.positions, mesh.triangles[f]));
+    wrong.votes.push_back({static_cast<std::int8_t>(vote.x), static_cast<std::int8_t>(vote.y),
+                           static_cast<std::int8_t>(vote.z)});
   }
-  return places;
+  return wrong;
 }
 
 /// Drops faces that lead through the air, and those that hide the way to points.
@@ -150,22 +159,89 @@ double spacing_of(const std::vector<Vec3>& places, const PointGrid& cloud, doubl
 
 /// Grows over points, and once more from the start where that goes on inside out: not with faces
 /// there of which the points look out of the back.
-/// @param options get the votes there, too
-/// @param votes those of the options, if there are any
-std::size_t grow_outwards(TriangleMesh& mesh, std::span<const Vec3> near, const SeenPoints& seen,
-                          GrowOverOptions& options, std::optional<VoteGrid>& votes,
-                          const Progress& progress) {
-  const double h = options.pixel_size;
-  const TriangleMesh start = mesh;
-  const std::size_t count = grow_over(mesh, near, options, progress);
-  const std::vector<Vec3> wrong = grown_inside_out(mesh, start.triangles.size(), seen, h);
-  if (wrong.empty()) return count;
-  const double around = kAroundWrong * h;
-  votes.emplace(seen, points_near(near, grid_of(wrong, around), around), kOwnPoints * h);
-  options.votes = &*votes;
-  mesh = start;
-  return grow_over(mesh, near, options, progress);
-}
+class OutwardGrowth {
+ public:
+  /// @param whole that the part is taken from
+  /// @param options get the votes that the last growth has kept to
+  OutwardGrowth(const TriangleMesh& whole, FacePart& part, std::span<const Vec3> near,
+                const SeenPoints& seen, GrowOverOptions& options, const Progress& progress)
+      : whole_(whole),
+        part_(part),
+        start_(part.mesh),
+        near_(near),
+        seen_(seen),
+        options_(options),
+        progress_(progress) {}
+
+  /// @param is_body whether it closes around what the faces look away from
+  /// @return faces that came
+  std::size_t run(bool is_body) {
+    const std::size_t count = grow_over(part_.mesh, near_, options_, progress_);
+    const std::vector<std::uint32_t> grown = last_faces(part_.mesh, grown_count());
+    const double h = options_.pixel_size;
+    const WrongPlaces by_votes =
+        wrong_places(part_.mesh, inside_out_faces(part_.mesh, grown, seen_, kOwnPoints * h), h);
+    if (!by_votes.places.empty()) {
+      const double around = kAroundWrong * h;
+      return grow_again(seen_, points_near(near_, grid_of(by_votes.places, around), around));
+    }
+    if (!is_body) return count;
+    wrong_ = facing_inwards();
+    return wrong_.places.empty() ? count : grow_other_way_round(count);
+  }
+
+ private:
+  [[nodiscard]] std::size_t grown_count() const {
+    return part_.mesh.triangles.size() - start_.triangles.size();
+  }
+
+  static std::vector<std::uint32_t> last_faces(const TriangleMesh& mesh, std::size_t count) {
+    std::vector<std::uint32_t> faces(count);
+    std::iota(faces.begin(), faces.end(),
+              static_cast<std::uint32_t>(mesh.triangles.size() - count));
+    return faces;
+  }
+
+  /// Of what has grown, where no votes tell.
+  [[nodiscard]] WrongPlaces facing_inwards() const {
+    TriangleMesh all = whole_;
+    put_back(part_, all);
+    return wrong_places(all, faces_facing_inwards(all, last_faces(all, grown_count())),
+                        options_.pixel_size);
+  }
+
+  /// @param votes known for longer than this
+  std::size_t grow_again(const SeenPoints& votes, std::span<const Vec3> places) {
+    votes_.emplace(votes, places, kOwnPoints * options_.pixel_size);
+    options_.votes = &*votes_;
+    part_.mesh = start_;
+    return grow_over(part_.mesh, near_, options_, progress_);
+  }
+
+  /// Unless less is reached that way.
+  std::size_t grow_other_way_round(std::size_t count) {
+    TriangleMesh first = part_.mesh;
+    const std::size_t second = grow_again(wrong_.seen(), wrong_.places);
+    if (missing_in(part_.mesh) <= missing_in(first) + kFewLeftOut) return second;
+    part_.mesh = std::move(first);
+    options_.votes = nullptr;
+    return count;
+  }
+
+  [[nodiscard]] std::size_t missing_in(const TriangleMesh& mesh) const {
+    return points_off(near_, mesh, options_.off_mesh).size();
+  }
+
+  const TriangleMesh& whole_;
+  FacePart& part_;
+  TriangleMesh start_;
+  std::span<const Vec3> near_;
+  const SeenPoints& seen_;
+  GrowOverOptions& options_;
+  const Progress& progress_;
+  WrongPlaces wrong_;  ///< that no votes tell
+  std::optional<VoteGrid> votes_;
+};
 
 }  // namespace
 
@@ -198,10 +274,9 @@ std::size_t regrow(TriangleMesh& mesh, const SeenPoints& seen, const PointGrid& 
   const bool is_sparse = spacing > kSparseSpacing * h;
   const bool is_very_sparse = spacing > kVerySparseSpacing * h;
   if (is_sparse) grow.void_radius = is_very_sparse ? kVoidRadiusInVerySparse : kVoidRadius;
-  std::optional<VoteGrid> votes;
-  std::size_t count = options.only_outwards
-                          ? grow_outwards(part.mesh, near, seen, grow, votes, progress)
-                          : grow_over(part.mesh, near, grow, progress);
+  OutwardGrowth outwards(mesh, part, near, seen, grow, progress);
+  std::size_t count = options.only_outwards ? outwards.run(options.is_body)
+                                            : grow_over(part.mesh, near, grow, progress);
   if (is_sparse && !is_very_sparse)
     count += restart_fronts(part.mesh, near, places, grow, progress);
   put_back(std::move(part), mesh);

@@ -25,6 +25,7 @@ struct RegrowOptions {
   /// Fronts that have gone on inside out start once more. Not between walls so close that few
   /// directions see into the gap: the votes there are those of the rims.
   bool only_outwards = true;
+  bool is_body = true;  ///< not a sheet: faces have an outside and an inside
 };
 
 /// Grows a surface over places that no scan has reached: deep in slots and cavities, and where two

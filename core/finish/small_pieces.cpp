@@ -1,6 +1,7 @@
 #include "core/finish/small_pieces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "core/finish/components.h"
@@ -18,6 +19,11 @@ constexpr std::size_t kHostShare = 20;
 
 /// Area vector over area: of half a sphere. What is flatter has no inside, nor pockets.
 constexpr double kFlatSheet = 0.5;
+
+/// Area vector over area, and volume over area to the power of 1.5 (of a ball 0.094): of what is
+/// nearly closed, and closes around its inside.
+constexpr double kNearlyClosed = 0.3;
+constexpr double kBulges = 0.02;
 
 /// What stands apart by so many h, and has so many faces, as a ball of 2.5 h does, is a body.
 constexpr double kApart = 3.0;
@@ -68,6 +74,36 @@ void keep_apart(const TriangleMesh& mesh, const std::vector<std::uint32_t>& comp
   }
 }
 
+/// What the faces of a component add up to.
+struct Extents {
+  Vec3 origin{0.0};  ///< one of its vertices
+  Vec3 across{0.0};  ///< area vector
+  double area = 0.0;
+  double volume = 0.0;  ///< between the faces and the origin
+
+  /// Whether hardly anything is missing of the outside of a body; of the wall of a bore the volume
+  /// is negative.
+  [[nodiscard]] bool are_of_body() const {
+    return glm::length(across) <= kNearlyClosed * area && volume >= kBulges * std::pow(area, 1.5);
+  }
+};
+
+std::vector<Extents> extents_of(const TriangleMesh& mesh,
+                                const std::vector<std::uint32_t>& component, std::size_t count) {
+  std::vector<Extents> extents(count);
+  for (std::size_t f = 0; f < component.size(); ++f) {
+    Extents& all = extents[component[f]];
+    const Triangle& t = mesh.triangles[f];
+    if (all.area == 0.0) all.origin = mesh.positions[t[0]];
+    const Vec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
+    const Vec3 across = 0.5 * area_vector(a, b, c);
+    all.across += across;
+    all.area += glm::length(across);
+    all.volume += glm::dot(a - all.origin, across) / 3.0;
+  }
+  return extents;
+}
+
 /// Flags the components that are too small, or shreds by their size, but bodies of their own or
 /// sides of one.
 std::vector<std::uint8_t> small_bodies(const TriangleMesh& mesh,
@@ -84,7 +120,15 @@ std::vector<std::uint8_t> small_bodies(const TriangleMesh& mesh,
     is_body[k] = is_large[k] == 0 && sizes[k] >= kLeastBody ? 1 : 0;
     any = any || is_body[k] != 0;
   }
-  if (any) keep_apart(mesh, component, is_large, kApart * options.pixel_size, is_body);
+  if (!any) return is_body;
+  std::vector<std::uint8_t> is_apart = is_body;
+  keep_apart(mesh, component, is_large, kApart * options.pixel_size, is_apart);
+  const std::vector<Extents> extents = extents_of(mesh, component, sizes.size());
+  for (std::size_t k = 0; k < sizes.size(); ++k) {
+    if (is_body[k] == 0) continue;
+    is_body[k] =
+        is_apart[k] != 0 || (sizes[k] >= options.min_faces && extents[k].are_of_body()) ? 1 : 0;
+  }
   return is_body;
 }
 

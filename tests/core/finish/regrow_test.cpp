@@ -107,6 +107,40 @@ TEST_CASE("nothing grows inside out from a piece whose points are seen from behi
   CHECK(all_look_up == has_votes);  // nothing else tells
 }
 
+TEST_CASE("nothing grows inwards on a body, even where nobody has seen the points", "[finish]") {
+  const bool is_body = GENERATE(true, false);
+  const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
+  CAPTURE(is_body, seed);
+  std::mt19937_64 engine(seed);
+  constexpr double kTop = 0.5 * kSide, kHole = 0.35 * kSide;
+  std::vector<Vec3> points;
+  add_sheet_points(points, kTop, engine);
+  // A cube without the middle of its top, where a scrap lies upside down.
+  TriangleMesh mesh = testing::cube(kSide);
+  for (Vec3& p : mesh.positions)
+    p *= kTop;
+  testing::cut_where(mesh, [&](const Vec3& p) {
+    return p.z > kTop - 0.1 && std::max(std::abs(p.x), std::abs(p.y)) < kHole;
+  });
+  remove_unused_vertices(mesh);
+  TriangleMesh scrap = shapes::square_sheet(6);
+  for (Vec3& p : scrap.positions)
+    p.z = kTop;
+  for (Triangle& t : scrap.triangles)
+    std::swap(t[1], t[2]);
+  append(mesh, scrap);
+
+  REQUIRE(regrow(mesh, {points}, grid_of(points), {.pixel_size = kH, .is_body = is_body}) > 0);
+
+  require_clean(mesh);
+  double inwards = -36.0;  // the scrap
+  for (const Triangle& t : mesh.triangles) {
+    if (centroid_of(mesh.positions, t).z > kTop - 0.1 && unit_normal(mesh.positions, t).z < 0.0)
+      inwards += area_of_face(mesh.positions, t);
+  }
+  CHECK((inwards < 10.0) == is_body);
+}
+
 TEST_CASE("a front goes down no wall of which the points look out of the back, if it is told so",
           "[finish]") {
   const bool only_outwards = GENERATE(true, false);
