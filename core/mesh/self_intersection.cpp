@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numeric>
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/mesh/cell_grid.h"
+#include "core/mesh/crowded_triangles.h"
 #include "core/mesh/triangle_overlap.h"
 
 namespace rangezip {
@@ -22,97 +23,15 @@ constexpr double kSidesPerCell = 1.5;
 constexpr std::size_t kCellsPerTriangle = 16;
 /// A triangle over more cells than this is compared with all others instead of being entered.
 constexpr std::size_t kLargeTriangleCells = 4096;
+/// More large ones than this are a crowd (crowded_triangles.h), and so are the triangles of a cell
+/// that has more than that: comparing all with all would take longer than telling them apart.
+constexpr std::size_t kMostLarge = 512;
+constexpr std::size_t kMostInCell = 1024;
 /// Where triangles are in more cells than this on average, as slivers across the axes are, cells
 /// grow: that bounds the memory of the lists.
 constexpr std::size_t kMostEntriesPerTriangle = 64;
 constexpr std::size_t kCellsPerBlock = 4096;
 constexpr std::size_t kTrianglesPerBlock = 16384;
-
-struct CellRange {
-  std::array<int, 3> lower{};
-  std::array<int, 3> upper{};  ///< inclusive
-
-  [[nodiscard]] std::size_t count() const {
-    std::size_t n = 1;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      n *= static_cast<std::size_t>(upper[axis] - lower[axis] + 1);
-    }
-    return n;
-  }
-};
-
-class CellGrid {
- public:
-  CellGrid(const Box& bounds, double cell, std::size_t max_cells) : lower_(bounds.lower) {
-    const Vec3 size = bounds.upper - bounds.lower;
-    const double largest = std::max({size.x, size.y, size.z});
-    // A cell of at least a 1000th of the box keeps the count of cells in range for the loop below.
-    constexpr double kMaxCellsPerAxis = 1000.0;
-    cell = std::max(cell, largest / kMaxCellsPerAxis);
-    if (!(cell > 0.0)) cell = 1.0;
-    for (;;) {
-      std::size_t cells = 1;
-      for (int axis = 0; axis < 3; ++axis) {
-        dims_[static_cast<std::size_t>(axis)] = static_cast<int>(size[axis] / cell) + 1;
-        cells *= static_cast<std::size_t>(dims_[static_cast<std::size_t>(axis)]);
-      }
-      if (cells <= max_cells || cells <= 1) break;
-      constexpr double kGrowth = 1.25;
-      cell *= kGrowth;
-    }
-    cell_ = cell;
-    per_unit_ = 1.0 / cell;
-  }
-
-  [[nodiscard]] double cell() const { return cell_; }
-
-  [[nodiscard]] std::size_t cell_count() const {
-    return static_cast<std::size_t>(dims_[0]) * static_cast<std::size_t>(dims_[1]) *
-           static_cast<std::size_t>(dims_[2]);
-  }
-  [[nodiscard]] CellRange range_of(const Box& box) const {
-    CellRange range;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto a = static_cast<std::size_t>(axis);
-      range.lower[a] = coordinate(box.lower[axis], axis);
-      range.upper[a] = coordinate(box.upper[axis], axis);
-    }
-    return range;
-  }
-  [[nodiscard]] std::size_t index_of(const Vec3& p) const {
-    return index(coordinate(p.x, 0), coordinate(p.y, 1), coordinate(p.z, 2));
-  }
-  [[nodiscard]] int layers() const { return dims_[2]; }
-  /// Visits the cells of a range in the layers from `lowest` to `highest`.
-  template <class Visit>
-  void for_each_cell(const CellRange& range, int lowest, int highest, Visit visit) const {
-    for (int z = std::max(lowest, range.lower[2]); z <= std::min(highest, range.upper[2]); ++z) {
-      for (int y = range.lower[1]; y <= range.upper[1]; ++y) {
-        const std::size_t row = index(0, y, z);
-        for (int x = range.lower[0]; x <= range.upper[0]; ++x) {
-          visit(row + static_cast<std::size_t>(x));
-        }
-      }
-    }
-  }
-
- private:
-  [[nodiscard]] int coordinate(double value, int axis) const {
-    const double scaled = (value - lower_[axis]) * per_unit_;
-    return std::min(static_cast<int>(scaled), dims_[static_cast<std::size_t>(axis)] - 1);
-  }
-  [[nodiscard]] std::size_t index(int x, int y, int z) const {
-    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(dims_[1]) +
-            static_cast<std::size_t>(y)) *
-               static_cast<std::size_t>(dims_[0]) +
-           static_cast<std::size_t>(x);
-  }
-
-  Vec3 lower_;
-  double cell_ = 1.0;  ///< side
-  double per_unit_ = 1.0;
-  std::array<int, 3> dims_{1, 1, 1};
-};
 
 /// Of their first sides.
 double mean_side(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles) {
@@ -152,6 +71,10 @@ class Triangles {
   [[nodiscard]] bool meet(std::uint32_t i, std::uint32_t j) const {
     return overlap(mesh_, mesh_.triangles[numbers_[i]], mesh_.triangles[numbers_[j]]);
   }
+  [[nodiscard]] std::array<Vec3, 3> corners(std::size_t i) const {
+    const Triangle& t = mesh_.triangles[numbers_[i]];
+    return {mesh_.positions[t[0]], mesh_.positions[t[1]], mesh_.positions[t[2]]};
+  }
   [[nodiscard]] double mean_side() const { return rangezip::mean_side(mesh_, numbers_); }
 
  private:
@@ -167,6 +90,14 @@ struct CellLists {
   std::vector<std::uint32_t> starts;
   std::vector<std::uint32_t> entries;
   std::vector<std::uint32_t> large;  ///< not entered
+
+  [[nodiscard]] std::size_t count(std::size_t cell) const {
+    return starts[cell + 1] - starts[cell];
+  }
+  [[nodiscard]] bool is_crowded(std::size_t cell) const { return count(cell) > kMostInCell; }
+  [[nodiscard]] std::span<const std::uint32_t> of(std::size_t cell) const {
+    return {entries.data() + starts[cell], count(cell)};
+  }
 };
 
 /// The cells that each triangle's box meets.
@@ -317,10 +248,8 @@ void collect_cells(const Triangles& triangles, const CellGrid& grid, const CellL
   std::vector<std::vector<Pair>> blocks((grid.cell_count() + kCellsPerBlock - 1) / kCellsPerBlock);
   parallel_for(grid.cell_count(), kCellsPerBlock, [&](std::size_t begin, std::size_t end) {
     for (std::size_t cell = begin; cell < end; ++cell) {
-      const std::size_t count = lists.starts[cell + 1] - lists.starts[cell];
-      if (count < 2) continue;
-      collect_cell(triangles, grid, {&lists.entries[lists.starts[cell]], count}, cell, changed,
-                   blocks[begin / kCellsPerBlock]);
+      if (lists.count(cell) < 2 || lists.is_crowded(cell)) continue;
+      collect_cell(triangles, grid, lists.of(cell), cell, changed, blocks[begin / kCellsPerBlock]);
     }
   });
   append_blocks(blocks, pairs);
@@ -340,7 +269,7 @@ void collect_all_of(const Triangles& triangles, std::uint32_t i,
 
 void collect_large(const Triangles& triangles, std::span<const std::uint32_t> large,
                    std::span<const std::uint8_t> changed, std::vector<Pair>& pairs) {
-  if (large.empty()) return;
+  if (large.empty() || large.size() > kMostLarge) return;
   std::vector<std::uint8_t> is_large(triangles.size(), 0);
   for (const std::uint32_t i : large)
     is_large[i] = 1;
@@ -351,6 +280,59 @@ void collect_large(const Triangles& triangles, std::span<const std::uint32_t> la
     }
   });
   append_blocks(blocks, pairs);
+}
+
+/// What a triangle has to do with a crowd.
+enum class Part : std::uint8_t { none, other, in_cell, large };
+
+/// Those of crowded cells and, if they are many, the large ones, which are compared with all.
+std::vector<Part> parts_in_crowd(const Triangles& triangles, const CellLists& lists) {
+  const bool has_large = lists.large.size() > kMostLarge;
+  std::vector<Part> parts(triangles.size(), has_large ? Part::other : Part::none);
+  for (std::size_t cell = 0; cell + 1 < lists.starts.size(); ++cell) {
+    if (!lists.is_crowded(cell)) continue;
+    for (const std::uint32_t i : lists.of(cell))
+      parts[i] = Part::in_cell;
+  }
+  for (const std::uint32_t i : lists.large)
+    parts[i] = has_large ? Part::large : Part::none;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    if (triangles.is_degenerate_at(i)) parts[i] = Part::none;
+  }
+  return parts;
+}
+
+/// Pairs of crowded cells and of large triangles, if these are many.
+void collect_crowd(const Triangles& triangles, const CellGrid& grid, const CellLists& lists,
+                   std::span<const std::uint8_t> changed, std::vector<Pair>& pairs) {
+  const std::vector<Part> parts = parts_in_crowd(triangles, lists);
+  std::vector<std::uint32_t> members;  // by rank, the asking ones first
+  const auto add = [&](const auto& is_added) {
+    for (std::uint32_t i = 0; i < parts.size(); ++i) {
+      if (is_added(parts[i])) members.push_back(i);
+    }
+    return members.size();
+  };
+  const std::size_t asking =
+      add([](Part part) { return part == Part::in_cell || part == Part::large; });
+  if (asking == 0) return;
+  add([](Part part) { return part == Part::other; });
+  std::vector<std::array<Vec3, 3>> corners;
+  corners.reserve(members.size());
+  for (const std::uint32_t i : members)
+    corners.push_back(triangles.corners(i));
+  const auto is_pair = [&](std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t i = members[a], j = members[b];
+    const Box &first = triangles.box(i), &second = triangles.box(j);
+    if (!is_asked(changed, i, j) || !boxes_meet(first, second)) return false;
+    if (parts[i] != Part::large && parts[j] != Part::large &&
+        !lists.is_crowded(grid.index_of(glm::max(first.lower, second.lower)))) {
+      return false;  // collect_cell finds it
+    }
+    return triangles.meet(i, j);
+  };
+  for (const auto& [a, b] : pairs_in_crowd(corners, asking, is_pair))
+    pairs.push_back(std::minmax(members[a], members[b]));
 }
 
 std::vector<std::uint32_t> all_of(const TriangleMesh& mesh) {
@@ -406,6 +388,7 @@ std::vector<Pair> find_pairs(const Triangles& triangles, std::span<const std::ui
   const CellLists lists = sort_into_cells(triangles, ranges, grid, wanted);
   collect_cells(triangles, grid, lists, changed, pairs);
   collect_large(triangles, lists.large, changed, pairs);
+  collect_crowd(triangles, grid, lists, changed, pairs);
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     const bool asked = changed.empty() || changed[i] != kSame;
     if (asked && triangles.is_degenerate_at(i)) pairs.emplace_back(i, i);

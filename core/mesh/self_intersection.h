@@ -14,7 +14,8 @@ namespace rangezip {
 /// other (core/mesh/triangle_overlap.h). A triangle without area pairs with itself, {i, i}, and
 /// with no other. Exact: decided by signs of determinants computed without error. The same verdict
 /// as CGAL's Polygon_mesh_processing::self_intersections.
-/// Cost: a uniform grid over the triangles, about linear for meshes of even size.
+/// Cost: a uniform grid over the triangles, about linear for meshes of even size; where it tells
+/// too few of them apart, as slivers across the axes, that of core/mesh/crowded_triangles.h.
 [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(
     const TriangleMesh& mesh);
 
