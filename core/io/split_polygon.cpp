@@ -1,7 +1,11 @@
 #include "core/io/split_polygon.h"
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+
+#include "core/io/corner_tree.h"
 
 namespace rangezip {
 
@@ -36,11 +40,6 @@ std::vector<Vec2> flatten(std::span<const Vec3> positions) {
   return flat;
 }
 
-/// Positive where a, b, c turn left.
-double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
 bool is_convex(std::span<const Vec2> flat) {
   const std::size_t count = flat.size();
   std::size_t rightward_starts = 0;  // a convex outline runs to the right in one piece
@@ -55,58 +54,106 @@ bool is_convex(std::span<const Vec2> flat) {
   return rightward_starts <= 1;
 }
 
-/// Takes ears off the outline until three corners are left.
+/// Marks, of corners, that are looked for in the order of the outline.
+class CornerMarks {
+ public:
+  explicit CornerMarks(std::size_t count) : words_((count + kBits - 1) / kBits, 0) {
+    for (std::size_t i = 0; i < count; ++i)
+      set(i);
+  }
+
+  void set(std::size_t i) { words_[i / kBits] |= std::uint64_t{1} << (i % kBits); }
+  void clear(std::size_t i) { words_[i / kBits] &= ~(std::uint64_t{1} << (i % kBits)); }
+
+  /// The first one marked from `start` on, and from the beginning when that was the end.
+  [[nodiscard]] std::optional<std::size_t> next(std::size_t start) const {
+    const std::size_t first = start / kBits;
+    const std::uint64_t from_start = ~std::uint64_t{0} << (start % kBits);
+    for (std::size_t step = 0; step <= words_.size(); ++step) {
+      const std::size_t k = (first + step) % words_.size();
+      std::uint64_t word = words_[k];
+      if (step == 0) word &= from_start;
+      if (step == words_.size()) word &= ~from_start;
+      if (word != 0) return k * kBits + static_cast<std::size_t>(std::countr_zero(word));
+    }
+    return std::nullopt;
+  }
+
+ private:
+  static constexpr std::size_t kBits = 64;
+  std::vector<std::uint64_t> words_;
+};
+
+/// Takes ears off the outline until three corners are left. A corner that is none is not asked
+/// again before its neighbours have changed or the corner that lies in its triangle is gone.
 class EarClipper {
  public:
-  explicit EarClipper(std::span<const Vec2> flat) : flat_(flat) {
-    for (std::size_t i = 0; i < flat.size(); ++i)
-      outline_.push_back(i);
+  explicit EarClipper(std::span<const Vec2> flat)
+      : flat_(flat),
+        corners_(flat),
+        may_be_ear_(flat.size()),
+        blocked_(flat.size()),
+        is_clipped_(flat.size()) {
+    for (std::size_t i = 0; i < flat.size(); ++i) {
+      before_.push_back(i == 0 ? flat.size() - 1 : i - 1);
+      after_.push_back(i + 1 == flat.size() ? 0 : i + 1);
+    }
   }
 
   template <class Emit>
   void clip(const Emit& emit) {
-    while (outline_.size() > 3) {
+    for (std::size_t left = flat_.size(); left > 3; --left) {
       const std::size_t ear = find_ear();
-      emit(before(ear), outline_[ear], after(ear));
-      outline_.erase(outline_.begin() + static_cast<std::ptrdiff_t>(ear));
-      start_ = ear == 0 ? 0 : ear - 1;
+      emit(before_[ear], ear, after_[ear]);
+      remove(ear);
     }
-    emit(outline_[0], outline_[1], outline_[2]);
+    emit(first_, after_[first_], before_[first_]);
   }
 
  private:
-  [[nodiscard]] std::size_t before(std::size_t i) const {
-    return outline_[(i + outline_.size() - 1) % outline_.size()];
-  }
-  [[nodiscard]] std::size_t after(std::size_t i) const {
-    return outline_[(i + 1) % outline_.size()];
-  }
-
   /// An ear, looked for from the last one on. A polygon that crosses itself may have none: then the
   /// corner at the start is taken, so that clipping ends.
-  [[nodiscard]] std::size_t find_ear() const {
-    for (std::size_t step = 0; step < outline_.size(); ++step) {
-      const std::size_t i = (start_ + step) % outline_.size();
-      if (is_ear(i)) return i;
+  [[nodiscard]] std::size_t find_ear() {
+    while (const auto corner = may_be_ear_.next(start_)) {
+      if (is_ear(*corner)) return *corner;
+      may_be_ear_.clear(*corner);
     }
-    return start_ % outline_.size();
+    return start_;
   }
 
-  [[nodiscard]] bool is_ear(std::size_t i) const {
-    const Vec2& a = flat_[before(i)];
-    const Vec2& b = flat_[outline_[i]];
-    const Vec2& c = flat_[after(i)];
+  [[nodiscard]] bool is_ear(std::size_t i) {
+    const Vec2& a = flat_[before_[i]];
+    const Vec2& b = flat_[i];
+    const Vec2& c = flat_[after_[i]];
     if (turn(a, b, c) <= 0.0) return false;
-    for (const std::size_t other : outline_) {
-      const Vec2& p = flat_[other];
-      if (p == a || p == b || p == c) continue;
-      if (turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0) return false;
+    const auto inside = corners_.find_inside(a, b, c);
+    if (inside) blocked_[*inside].push_back(i);
+    return !inside;
+  }
+
+  void remove(std::size_t ear) {
+    const std::size_t before = before_[ear], after = after_[ear];
+    after_[before] = after;
+    before_[after] = before;
+    corners_.remove(ear);
+    is_clipped_[ear] = true;
+    may_be_ear_.clear(ear);
+    may_be_ear_.set(before);
+    may_be_ear_.set(after);
+    for (const std::size_t i : blocked_[ear]) {
+      if (!is_clipped_[i]) may_be_ear_.set(i);
     }
-    return true;
+    start_ = ear == first_ ? after : before;
+    if (ear == first_) first_ = after;
   }
 
   std::span<const Vec2> flat_;
-  std::vector<std::size_t> outline_;
+  CornerTree corners_;
+  CornerMarks may_be_ear_;
+  std::vector<std::vector<std::size_t>> blocked_;  ///< whose triangles a corner was found in
+  std::vector<bool> is_clipped_;
+  std::vector<std::size_t> before_, after_;  ///< neighbours in the outline
+  std::size_t first_ = 0;                    ///< the lowest corner in the outline
   std::size_t start_ = 0;
 };
 
