@@ -49,6 +49,7 @@ class Finder {
     BorderGap worst;
     worst.beyond = options_.negligible;
     bool found = false;
+    std::uint32_t in_the_way = CornerTable::kNone;  // of the point before: often of the next, too
     cloud_.for_each_near(
         middle, options_.reach + 0.5 * std::sqrt(edge->squared_length), [&](const Vec3& d) {
           const Vec3 from_start = middle + d - edge->start;
@@ -63,7 +64,7 @@ class Finder {
           if (over <= worst.beyond) return;
           const double distance = std::sqrt(squared) - kSame * options_.reach;
           const Vec3 point = edge->start + from_start;
-          if (distance > 0.0 && faces_.has_face_within(point, distance)) return;
+          if (has_nearer_face(point, distance, in_the_way)) return;
           worst = {corner,        point,       share, over, glm::dot(offset, edge->normal),
                    edge->outward, edge->normal};
           found = true;
@@ -73,6 +74,15 @@ class Finder {
   }
 
  private:
+  /// @param in_the_way a face that may be nearer, or kNone; becomes one that is, if there is one
+  [[nodiscard]] bool has_nearer_face(const Vec3& point, double distance,
+                                     std::uint32_t& in_the_way) const {
+    if (distance <= 0.0) return false;
+    const std::uint32_t nearer = faces_.face_within(point, distance, in_the_way);
+    if (nearer != CornerTable::kNone) in_the_way = nearer;
+    return nearer != CornerTable::kNone;
+  }
+
   const TriangleMesh& mesh_;
   const CornerTable& table_;
   const FaceGrid& faces_;

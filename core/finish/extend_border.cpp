@@ -16,6 +16,7 @@
 #include "core/finish/components.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/face_grid.h"
+#include "core/finish/gap_memo.h"
 #include "core/mesh/self_intersection.h"
 
 namespace rangezip {
@@ -74,11 +75,11 @@ class Extender {
  public:
   Extender(TriangleMesh& mesh, const PointGrid& cloud, const ExtendBorderOptions& options)
       : mesh_(mesh),
-        cloud_(cloud),
         h_(options.pixel_size),
         reach_(kReach * options.pixel_size),
         smallest_angle_(options.smallest_angle),
-        min_component_(options.min_component) {}
+        min_component_(options.min_component),
+        gaps_(cloud, {reach_, kNegligible * h_}) {}
 
   /// @return whether anything changed
   bool round(ExtendBorderReport& report) {
@@ -88,8 +89,7 @@ class Extender {
     if (first_border_edges_ == 0) first_border_edges_ = border_edges;
     if (border_edges > kMaxGrowth * first_border_edges_) return false;
     const FaceGrid faces(mesh_, table, reach_);
-    std::vector<BorderGap> gaps =
-        find_border_gaps(mesh_, table, faces, cloud_, {reach_, kNegligible * h_});
+    std::vector<BorderGap> gaps = gaps_.find(mesh_, table, faces);
     report.edges_left = gaps.size();
     std::stable_sort(gaps.begin(), gaps.end(),
                      [](const BorderGap& p, const BorderGap& q) { return p.beyond > q.beyond; });
@@ -267,11 +267,11 @@ class Extender {
   }
 
   TriangleMesh& mesh_;
-  const PointGrid& cloud_;
   double h_;
   double reach_;
   double smallest_angle_;
   std::size_t min_component_;
+  GapMemo gaps_;
   std::size_t first_border_edges_ = 0;
   std::vector<std::uint32_t> moves_;  // of each vertex so far
   std::map<EdgeKey, Failures> failures_;

@@ -145,11 +145,19 @@ double FaceGrid::squared_distance(std::uint32_t face, const Vec3& place) const {
 }
 
 bool FaceGrid::has_face_within(const Vec3& place, double distance) const {
-  bool found = false;
+  return face_within(place, distance, CornerTable::kNone) != CornerTable::kNone;
+}
+
+std::uint32_t FaceGrid::face_within(const Vec3& place, double distance, std::uint32_t guess) const {
+  const auto is_within = [&](std::uint32_t face) {
+    return squared_distance_to_box(place, boxes_[face]) < distance * distance &&
+           squared_distance(face, place) < distance * distance;
+  };
+  if (guess != CornerTable::kNone && is_within(guess)) return guess;
+  std::uint32_t found = CornerTable::kNone;
   for_each_cell({place - distance, place + distance}, [&](std::size_t at) {
-    for (std::size_t i = starts_[at]; i < starts_[at + 1] && !found; ++i) {
-      found = squared_distance_to_box(place, boxes_[entries_[i]]) < distance * distance &&
-              squared_distance(entries_[i], place) < distance * distance;
+    for (std::size_t i = starts_[at]; i < starts_[at + 1] && found == CornerTable::kNone; ++i) {
+      if (is_within(entries_[i])) found = entries_[i];
     }
   });
   return found;

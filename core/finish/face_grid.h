@@ -33,6 +33,11 @@ class FaceGrid {
   /// Whether a face comes nearer to the place than `distance`, at most the reach.
   [[nodiscard]] bool has_face_within(const Vec3& place, double distance) const;
 
+  /// One that does, CornerTable::kNone if none does; faster if it is the one guessed.
+  /// @param guess a face or CornerTable::kNone
+  [[nodiscard]] std::uint32_t face_within(const Vec3& place, double distance,
+                                          std::uint32_t guess) const;
+
  private:
   using Cell = std::array<std::size_t, 3>;
 

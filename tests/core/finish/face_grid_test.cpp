@@ -1,6 +1,7 @@
 #include "core/finish/face_grid.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -43,6 +44,15 @@ TEST_CASE("FaceGrid finds a face nearer than a distance just where there is one"
     if (distance > 0.9 * kReach) continue;
     REQUIRE(grid.has_face_within(p, 1.001 * distance + 1e-12));
     REQUIRE_FALSE(grid.has_face_within(p, 0.999 * distance));
+    // Whatever is guessed, a face that is found is near enough, and one is found if there is one.
+    const auto guess = static_cast<std::uint32_t>(engine() % mesh.triangles.size());
+    const std::uint32_t face = grid.face_within(p, 1.001 * distance + 1e-12, guess);
+    REQUIRE(face != CornerTable::kNone);
+    const Triangle& t = mesh.triangles[face];
+    REQUIRE(squared_distance_to_triangle(p, mesh.positions[t[0]], mesh.positions[t[1]],
+                                         mesh.positions[t[2]]) <=
+            std::pow(1.001 * distance + 1e-12, 2.0));
+    REQUIRE(grid.face_within(p, 0.999 * distance, guess) == CornerTable::kNone);
     ++(distance > 0.01 ? outside : inside);
   }
   REQUIRE(inside + outside > 20);
