@@ -5,8 +5,7 @@
 #include <fmt/format.h>
 
 #include "apps/rangezip/commands.h"
-#include "core/io/input_file.h"
-#include "core/io/mesh_file.h"
+#include "core/io/input_with_mesh.h"
 #include "core/io/session_file.h"
 #include "core/mesh/mesh_report.h"
 #include "core/mesh/self_intersection.h"
@@ -104,12 +103,10 @@ void print_session(Console& console, const std::filesystem::path& path) {
 
 void print_mesh_or_cloud(Console& console, const std::filesystem::path& path, bool check,
                          const Progress& progress) {
-  const InputFile file = read_input(path, progress);
-  for (const InputReport& report : file.reports)
+  const InputWithMesh file = read_input_with_mesh(path, progress);
+  for (const InputReport& report : file.input.reports)
     print_input(console, report);
-  // A .conf may list meshes, but is not one.
-  if (file.reports.front().path != path.string() || file.reports.front().triangles == 0) return;
-  print_topology(console, read_mesh(path), check);
+  if (!file.mesh.empty()) print_topology(console, file.mesh, check);
 }
 
 void print_info(const InfoOptions& options, const Context& context) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "apps/rangezip/exit_code.h"
 #include "core/io/file_hash.h"
 
 namespace rangezip::app {
@@ -31,6 +32,16 @@ SceneInput read_inputs(const std::vector<fs::path>& paths, Console& console) {
   SceneInput input = read_scene(paths, progress);
   console.end_task();
   return input;
+}
+
+void require_rereadable(const std::vector<fs::path>& paths) {
+  for (const fs::path& path : paths) {
+    std::error_code error;
+    if (!fs::is_other(path, error)) continue;
+    throw UsageError(path.string() +
+                     ": a pipe or device cannot be read again, which a session needs to be "
+                     "replayed; store its content in a file");
+  }
 }
 
 std::string amount_text(const Scene& scene) {

@@ -112,14 +112,20 @@ void mesh(const MeshOptions& options, const Context& context) {
   const auto rasterizer = make_rasterizer(options.common.backend);
   const Outputs outputs = outputs_of(options);
   const bool is_replayed = options.session || options.verify;
-  if (is_replayed) outputs.refuse_overwriting(options.inputs);
+  if (is_replayed) {
+    require_rereadable(options.inputs);
+    outputs.refuse_overwriting(options.inputs);
+  }
   const auto referee = options.verify ? std::optional(find_referee()) : std::nullopt;
   Console console(options.common.quiet, context.stop);
   const StageClock total;
 
   MeshRunReport run{.rasterizer = rasterizer->info()};
   SceneInput input = read_inputs(options.inputs, console);
-  if (is_replayed) outputs.refuse_overwriting(files_of(input));
+  if (is_replayed) {
+    require_rereadable(files_of(input));
+    outputs.refuse_overwriting(files_of(input));
+  }
   run.stages.push_back(total.stage("read"));
 
   const auto [amount, unit] = workload_of(input.scene);

@@ -9,8 +9,7 @@
 #include "apps/rangezip/values.h"
 #include "core/base/parallel.h"
 #include "core/io/image_file.h"
-#include "core/io/input_file.h"
-#include "core/io/mesh_file.h"
+#include "core/io/input_with_mesh.h"
 #include "core/render/picture.h"
 
 namespace rangezip::app {
@@ -54,15 +53,12 @@ void append_soup(TriangleMesh& onto, const InputItem& item) {
 PictureContent read_content(const RenderOptions& options, const Progress& progress) {
   PictureContent content;
   for (const std::filesystem::path& path : options.files) {
-    const InputFile file = read_input(path, progress);
-    const bool is_list = file.reports.front().path != path.string();
-    bool has_faces = false;
-    for (const InputItem& item : file.items) {
+    InputWithMesh file = read_input_with_mesh(path, progress);
+    for (const InputItem& item : file.input.items) {
       if (item.cloud) append_cloud(content.points, item);
-      if (is_list && item.soup) append_soup(content.mesh, item);
-      has_faces = has_faces || item.soup != nullptr;
+      if (item.soup && file.mesh.empty()) append_soup(content.mesh, item);
     }
-    if (has_faces && !is_list) append_mesh(content.mesh, read_mesh(path));
+    append_mesh(content.mesh, std::move(file.mesh));
   }
   if (options.only_points) {
     const auto& vertices = content.mesh.positions;

@@ -52,6 +52,7 @@ Outputs outputs_of(const ScanOptions& options) {
     outputs.add("--session", *options.session, {"json"});
     std::vector<std::filesystem::path> needed = options.inputs;
     if (options.into) needed.push_back(*options.into);
+    require_rereadable(needed);
     outputs.refuse_overwriting(needed);
   }
   return outputs;
@@ -101,7 +102,10 @@ void scan(const ScanOptions& options, const Context& context) {
   const Outputs outputs = outputs_of(options);
   Console console(options.common.quiet, context.stop);
   const SceneInput input = read_inputs(options.inputs, console);
-  if (options.session) outputs.refuse_overwriting(files_of(input));
+  if (options.session) {
+    require_rereadable(files_of(input));
+    outputs.refuse_overwriting(files_of(input));
+  }
   TriangleMesh initial;
   if (options.into) {
     initial = read_mesh(*options.into);

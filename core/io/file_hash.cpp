@@ -1,5 +1,6 @@
 #include "core/io/file_hash.h"
 
+#include "core/base/error.h"
 #include "core/io/file_bytes.h"
 
 namespace rangezip {
@@ -14,6 +15,10 @@ std::uint64_t hash_bytes(std::string_view bytes) {
 }
 
 std::uint64_t hash_file(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::is_other(path, error)) {
+    throw IoError(path.string() + ": a pipe or device has no content that can be read again");
+  }
   return hash_bytes(FileBytes(path, FileBytes::Packing::keep).bytes());
 }
 

@@ -11,7 +11,8 @@ namespace rangezip {
 [[nodiscard]] std::uint64_t hash_bytes(std::string_view bytes);
 
 /// hash_bytes() of a file as it lies on the disk; a .gz is not unpacked.
-/// @throws IoError if the file is missing, a folder, unreadable or empty.
+/// @throws IoError if the file is missing, a folder, unreadable or empty, or a pipe or device: to
+///     hash what that gives would take it from whoever reads it next.
 [[nodiscard]] std::uint64_t hash_file(const std::filesystem::path& path);
 
 }  // namespace rangezip

@@ -33,7 +33,10 @@ Reader reader_of(const std::filesystem::path& path) {
     if (known == type) return reader;
     all_known += " ." + std::string(known);
   }
-  throw IoError(path.string() + ": unknown type " + quote(type) + "; known are" + all_known);
+  std::error_code error;
+  const bool is_pipe = std::filesystem::is_other(path, error);
+  throw IoError(path.string() + ": unknown type " + quote(type) + "; known are" + all_known +
+                (is_pipe ? "; a link to a pipe may have a name of such a type" : ""));
 }
 
 }  // namespace

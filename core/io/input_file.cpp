@@ -8,12 +8,11 @@
 
 #include "core/io/conf_file.h"
 #include "core/io/raw_geometry.h"
+#include "core/io/read_opened.h"
 
 namespace rangezip {
 
 namespace {
-
-constexpr const char* kListType = "conf";  ///< lists of Stanford range scans
 
 Mat4 translation(const Vec3& offset) {
   Mat4 matrix{1.0};
@@ -88,10 +87,7 @@ std::string reason_for_nothing(const InputReport& report) {
   return "there is no point and no polygon in it";
 }
 
-InputFile read_one(const std::filesystem::path& path, const Mat4& world_from_file,
-                   const Progress& progress) {
-  check_geometry_type(path);
-  const FileBytes file(path);
+InputFile read_one(const FileBytes& file, const Mat4& world_from_file, const Progress& progress) {
   RawGeometry geometry = read_about_best_origin(file, progress);
   InputReport report{.path = file.name(),
                      .format = geometry.format,
@@ -127,14 +123,26 @@ InputFile read_one(const std::filesystem::path& path, const Mat4& world_from_fil
 
 }  // namespace
 
+bool is_list_of_scans(const std::filesystem::path& path) {
+  return file_type(path) == "conf";
+}
+
+InputFile read_opened_input(const FileBytes& file, const Progress& progress) {
+  return read_one(file, Mat4{1.0}, progress);
+}
+
 InputFile read_input(const std::filesystem::path& path, const Progress& progress) {
-  if (file_type(path) != kListType) return read_one(path, Mat4{1.0}, progress);
+  if (!is_list_of_scans(path)) {
+    check_geometry_type(path);
+    return read_opened_input(FileBytes(path), progress);
+  }
   const FileBytes file(path);
   InputFile all;
   for (const PlacedScan& scan : read_conf(file)) {
     progress.check_stop();
-    if (file_type(scan.path) == kListType) file.fail("a list of scans must not name another list");
-    InputFile one = read_one(scan.path, scan.world_from_scan, progress);
+    if (is_list_of_scans(scan.path)) file.fail("a list of scans must not name another list");
+    check_geometry_type(scan.path);
+    InputFile one = read_one(FileBytes(scan.path), scan.world_from_scan, progress);
     std::move(one.items.begin(), one.items.end(), std::back_inserter(all.items));
     std::move(one.reports.begin(), one.reports.end(), std::back_inserter(all.reports));
   }

@@ -1,11 +1,15 @@
 #include "core/io/mesh_file.h"
 #include "core/io/raw_geometry.h"
+#include "core/io/read_opened.h"
 
 namespace rangezip {
 
 TriangleMesh read_mesh(const std::filesystem::path& path) {
   check_geometry_type(path);
-  const FileBytes file(path);
+  return read_opened_mesh(FileBytes(path));
+}
+
+TriangleMesh read_opened_mesh(const FileBytes& file) {
   RawGeometry geometry = read_geometry(file, PositionList::Precision::exact, std::nullopt, {});
   TriangleMesh mesh;
   mesh.triangles = split_polygons(geometry).triangles;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/input_file.h"
+#include "core/io/input_with_mesh.h"
 #include "core/io/mesh_file.h"
 #include "tests/core/io/temporary_folder.h"
 #include "tests/support/shapes.h"
@@ -280,6 +280,21 @@ TEST_CASE("read_scene puts points and polygons of several files together in orde
   CHECK(input.scene.point_count() == 2);
   CHECK(input.reports.size() == 2);
   CHECK(input.scene.bounds().upper == Vec3{6, 6, 6});
+}
+
+TEST_CASE("A file read as input and as mesh gives what both readers give; no faces, no mesh") {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "a.ply";
+  write_mesh(path, tetrahedron());
+  const InputWithMesh both = read_input_with_mesh(path);
+  CHECK(both.input.reports.front().triangles == 4);
+  CHECK(both.mesh.positions == read_mesh(path).positions);
+  CHECK(both.mesh.triangles == read_mesh(path).triangles);
+  CHECK(read_input_with_mesh(folder.store("a.xyz", "0 0 0\n1 0 0\n")).mesh.empty());
+  const InputWithMesh list =
+      read_input_with_mesh(folder.store("a.conf", "bmesh a.ply 0 0 0 0 0 0 1\n"));
+  CHECK(list.input.items.size() == 1);
+  CHECK(list.mesh.empty());
 }
 
 TEST_CASE("Reading stops when the caller asks for the end") {
