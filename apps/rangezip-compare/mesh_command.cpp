@@ -98,7 +98,8 @@ struct Surface {
   std::filesystem::path path;
   TriangleMesh mesh;
 
-  explicit Surface(const std::filesystem::path& file) : path(file), mesh(read_mesh(file)) {}
+  Surface(const std::filesystem::path& file, const Progress& progress)
+      : path(file), mesh(read_mesh(file, progress)) {}
 };
 
 /// Calls `measure` on the mesh. @throws IoError with the name of the file if it has no area
@@ -141,13 +142,14 @@ void compare_with_cloud(const Surface& surface, const Cloud& cloud, Json& json, 
 
 bool run_mesh_command(const MeshCommand& command, std::ostream& out, const Progress& progress) {
   if (command.json) check_json_place(*command.json);
-  const Surface surface(command.mesh);
-  const auto truth = command.truth ? std::optional<Surface>(*command.truth) : std::nullopt;
+  const Surface surface(command.mesh, progress);
+  const auto truth = command.truth ? std::optional<Surface>(std::in_place, *command.truth, progress)
+                                   : std::nullopt;
   const auto cloud =
       command.cloud ? std::optional<Cloud>(read_cloud(*command.cloud, progress)) : std::nullopt;
   progress.check_stop();
   Json json{{"file", command.mesh.string()},
-            {"mesh", to_json(judge_mesh(surface.mesh), report_mesh(surface.mesh))}};
+            {"mesh", to_json(judge_mesh(surface.mesh), report_mesh(surface.mesh, progress))}};
   print_verdict(out, json["mesh"]);
   progress.check_stop();
   if (truth) compare_with_truth(command, surface, *truth, json, out, progress);

@@ -36,8 +36,8 @@ void write_points(const std::filesystem::path& path, const std::vector<Vec3>& po
   file.commit();
 }
 
-std::vector<Vec3> sample(const SampleCommand& command) {
-  const TriangleMesh mesh = read_mesh(command.mesh);
+std::vector<Vec3> sample(const SampleCommand& command, const Progress& progress) {
+  const TriangleMesh mesh = read_mesh(command.mesh, progress);
   try {
     return sample_surface(mesh, {.count = command.points, .seed = command.seed});
   } catch (const TopologyError& error) {
@@ -49,7 +49,7 @@ std::vector<Vec3> sample(const SampleCommand& command) {
 
 void run_sample_command(const SampleCommand& command, const Progress& progress) {
   app::Outputs().add("-o", command.cloud, {"xyz", "txt", "asc"});
-  const std::vector<Vec3> points = sample(command);
+  const std::vector<Vec3> points = sample(command, progress);
   app::write_output([&] { write_points(command.cloud, points, progress); });
 }
 

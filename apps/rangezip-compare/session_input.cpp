@@ -32,7 +32,7 @@ JudgeableSession read_judgeable_session(const std::filesystem::path& path,
   const auto read = [&](const auto& paths) { return read_scene(paths, progress).scene; };
   try {
     SessionFile file = read_session(path);
-    app::SessionStart start = app::read_session_start(path, file, read);
+    app::SessionStart start = app::read_session_start(path, file, read, progress);
     return {.file = std::move(file), .start = std::move(start)};
   } catch (const TopologyError& error) {
     throw IoError(path.string() + ": /initial_mesh: " + error.what());

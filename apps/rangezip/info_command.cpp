@@ -53,8 +53,9 @@ void print_input(Console& console, const InputReport& report) {
     print_line(console, "note", note);
 }
 
-void print_topology(Console& console, const TriangleMesh& mesh, bool check) {
-  const MeshReport report = report_mesh(mesh);
+void print_topology(Console& console, const TriangleMesh& mesh, bool check,
+                    const Progress& progress) {
+  const MeshReport report = report_mesh(mesh, progress);
   print_count(console, "vertices in faces", report.vertices);
   print_count(console, "components", report.components);
   print_count(console, "boundary loops", report.boundary_loops);
@@ -66,7 +67,9 @@ void print_topology(Console& console, const TriangleMesh& mesh, bool check) {
   print_count(console, "non-manifold vertices", report.nonmanifold_vertices);
   print_count(console, "misoriented edges", report.misoriented_edges);
   print_nonzero(console, "degenerate faces", report.degenerate_faces);
-  if (check) print_count(console, "self-intersections", self_intersections(mesh).size());
+  if (check) {
+    print_count(console, "self-intersections", self_intersections(mesh, progress).size());
+  }
 }
 
 std::string_view name_of(const Command& command) {
@@ -106,7 +109,7 @@ void print_mesh_or_cloud(Console& console, const std::filesystem::path& path, bo
   const InputWithMesh file = read_input_with_mesh(path, progress);
   for (const InputReport& report : file.input.reports)
     print_input(console, report);
-  if (!file.mesh.empty()) print_topology(console, file.mesh, check);
+  if (!file.mesh.empty()) print_topology(console, file.mesh, check, progress);
 }
 
 void print_info(const InfoOptions& options, const Context& context) {

@@ -21,8 +21,8 @@ double total_bytes(const std::vector<fs::path>& paths) {
   return bytes;
 }
 
-SessionInput with_hash(const fs::path& path) {
-  return {.path = path, .hash = hash_file(path)};
+SessionInput with_hash(const fs::path& path, const Progress& progress) {
+  return {.path = path, .hash = hash_file(path, progress)};
 }
 
 }  // namespace
@@ -67,15 +67,15 @@ std::vector<fs::path> files_of(const SceneInput& input) {
 
 SessionFile record_session(const std::vector<fs::path>& paths, const SceneInput& input,
                            const std::optional<fs::path>& initial_mesh,
-                           std::vector<Command> commands) {
+                           std::vector<Command> commands, const Progress& progress) {
   SessionFile session;
   for (const fs::path& path : paths)
-    session.inputs.push_back(with_hash(path));
+    session.inputs.push_back(with_hash(path, progress));
   for (const fs::path& path : files_of(input)) {
     if (std::find(paths.begin(), paths.end(), path) == paths.end())
-      session.also_read.push_back(with_hash(path));
+      session.also_read.push_back(with_hash(path, progress));
   }
-  if (initial_mesh) session.initial_mesh = with_hash(*initial_mesh);
+  if (initial_mesh) session.initial_mesh = with_hash(*initial_mesh, progress);
   session.points = input.scene.point_count();
   session.triangles = input.scene.triangle_count();
   session.commands = std::move(commands);

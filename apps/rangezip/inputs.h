@@ -34,10 +34,10 @@ struct Workload {
 
 /// A session of `commands` on what was read, with the hash of every file. To be recorded before
 /// anything is written: the hashes are of what lies there now.
-/// @throws IoError if a file has vanished.
+/// @throws IoError if a file has vanished; Cancelled if `progress` says so.
 [[nodiscard]] SessionFile record_session(const std::vector<std::filesystem::path>& paths,
                                          const SceneInput& input,
                                          const std::optional<std::filesystem::path>& initial_mesh,
-                                         std::vector<Command> commands);
+                                         std::vector<Command> commands, const Progress& progress);
 
 }  // namespace rangezip::app

@@ -139,7 +139,8 @@ void mesh(const MeshOptions& options, const Context& context) {
                 "the scans were too small: use a smaller --pixel-size or more --triangles");
   std::optional<SessionFile> session;
   if (is_replayed) {
-    session = record_session(options.inputs, input, std::nullopt, std::move(result.commands));
+    session =
+        record_session(options.inputs, input, std::nullopt, std::move(result.commands), progress);
   }
   const StageClock write_clock;
   write_output([&] { write_mesh(options.output, result.mesh, options.file); });

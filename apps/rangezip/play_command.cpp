@@ -61,7 +61,8 @@ void play(const PlayOptions& options, const Context& context) {
   Console console(options.common.quiet, context.stop);
   const SessionFile file = read_session(options.session);
   SessionStart start = read_session_start(
-      options.session, file, [&](const auto& paths) { return read_inputs(paths, console).scene; });
+      options.session, file, [&](const auto& paths) { return read_inputs(paths, console).scene; },
+      Progress{.stop = context.stop});
 
   SessionOptions session_options;
   if (!takes_back(file)) session_options.history_bytes = 0;

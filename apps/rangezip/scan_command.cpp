@@ -107,10 +107,7 @@ void scan(const ScanOptions& options, const Context& context) {
     outputs.refuse_overwriting(files_of(input));
   }
   TriangleMesh initial;
-  if (options.into) {
-    initial = read_mesh(*options.into);
-    check_given_mesh(initial, *options.into);
-  }
+  if (options.into) initial = read_given_mesh(*options.into, Progress{.stop = context.stop});
 
   const auto [amount, unit] = workload_of(input.scene);
   const Progress progress = console.start_task("scanning", amount, unit);
@@ -125,7 +122,8 @@ void scan(const ScanOptions& options, const Context& context) {
   progress.check_stop();
 
   std::optional<SessionFile> file;
-  if (options.session) file = record_session(options.inputs, input, options.into, {command});
+  if (options.session)
+    file = record_session(options.inputs, input, options.into, {command}, progress);
   write_output([&] { write_images(options, input.scene, *session.last_scan()); });
   if (options.output) {
     require_faces(*session.mesh(), *options.output, "nothing of the input is seen and taken");

@@ -5,7 +5,6 @@
 
 #include "apps/rangezip/verify.h"
 #include "core/base/error.h"
-#include "core/io/mesh_file.h"
 
 namespace rangezip::app {
 
@@ -33,14 +32,13 @@ void check_count(const std::filesystem::path& path, const char* name,
 }  // namespace
 
 SessionStart read_session_start(const std::filesystem::path& path, const SessionFile& file,
-                                const ReadScene& read_scene) {
-  check_session_inputs(file);
+                                const ReadScene& read_scene, const Progress& progress) {
+  check_session_inputs(file, progress);
   SessionStart start{.scene = read_session_scene(path, file, read_scene)};
   check_count(path, "points", file.points, start.scene.point_count());
   check_count(path, "triangles", file.triangles, start.scene.triangle_count());
   if (file.initial_mesh) {
-    start.mesh = read_mesh(file.initial_mesh->path);
-    check_given_mesh(start.mesh, file.initial_mesh->path);
+    start.mesh = read_given_mesh(file.initial_mesh->path, progress);
   }
   return start;
 }

@@ -2,6 +2,7 @@
 
 #include "apps/rangezip/console.h"
 #include "apps/rangezip/exit_code.h"
+#include "core/io/mesh_file.h"
 
 namespace rangezip::app {
 
@@ -43,9 +44,11 @@ void require_faces(const TriangleMesh& mesh, const std::filesystem::path& output
   throw NotVerified(output.string() + ": is not written: no face came out; " + advice);
 }
 
-void check_given_mesh(const TriangleMesh& mesh, const std::filesystem::path& path) {
+TriangleMesh read_given_mesh(const std::filesystem::path& path, const Progress& progress) {
+  TriangleMesh mesh = read_mesh(path, progress);
   try {
-    check_mesh(mesh);
+    check_mesh(mesh, progress);
+    return mesh;
   } catch (const TopologyError& error) {
     throw TopologyError(path.string() + ": " + error.what());
   }

@@ -22,7 +22,9 @@ namespace rangezip::app {
 void require_faces(const TriangleMesh& mesh, const std::filesystem::path& output,
                    const std::string& advice);
 
-/// A mesh given with --into or by a session. @throws TopologyError that names the file
-void check_given_mesh(const TriangleMesh& mesh, const std::filesystem::path& path);
+/// Reads the mesh given with --into or by a session.
+/// @throws IoError as read_mesh(); TopologyError that names the file if it is no clean one
+[[nodiscard]] TriangleMesh read_given_mesh(const std::filesystem::path& path,
+                                           const Progress& progress);
 
 }  // namespace rangezip::app

@@ -62,11 +62,12 @@ void sort_by_digit(std::span<const Entry> from, std::span<Entry> to, int digit) 
 }
 
 template <class Place>
-std::vector<std::uint32_t> order_of(std::span<const Place> places) {
+std::vector<std::uint32_t> order_of(std::span<const Place> places, const Progress& progress) {
   std::vector<Entry> entries = entries_of(places);
   std::vector<Entry> sorted(entries.size());
   constexpr int kDigits = 3;
   for (int digit = 0; digit < kDigits; ++digit) {
+    progress.check_stop();
     sort_by_digit(entries, sorted, digit);
     entries.swap(sorted);
   }
@@ -78,12 +79,13 @@ std::vector<std::uint32_t> order_of(std::span<const Place> places) {
 
 }  // namespace
 
-std::vector<std::uint32_t> order_along_curve(std::span<const Vec3f> places) {
-  return order_of(places);
+std::vector<std::uint32_t> order_along_curve(std::span<const Vec3f> places,
+                                             const Progress& progress) {
+  return order_of(places, progress);
 }
 
 std::vector<std::uint32_t> order_along_curve(std::span<const Vec3> places) {
-  return order_of(places);
+  return order_of(places, {});
 }
 
 }  // namespace rangezip

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/geometry.h"
+#include "core/base/progress.h"
 
 namespace rangezip {
 
@@ -13,7 +14,9 @@ namespace rangezip {
 /// space comes near each other in memory.
 /// @pre all are finite, at most 2^32 - 1 of them. O(n), by a radix sort; 16 bytes a place beside
 ///     the result.
-[[nodiscard]] std::vector<std::uint32_t> order_along_curve(std::span<const Vec3f> places);
+/// @throws Cancelled if `progress` says so.
+[[nodiscard]] std::vector<std::uint32_t> order_along_curve(std::span<const Vec3f> places,
+                                                           const Progress& progress = {});
 [[nodiscard]] std::vector<std::uint32_t> order_along_curve(std::span<const Vec3> places);
 
 }  // namespace rangezip

@@ -1,6 +1,7 @@
 #include "core/io/file_bytes.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -52,11 +53,28 @@ struct Inflater {
   Inflater& operator=(const Inflater&) = delete;
 };
 
-/// zlib takes at most this many bytes at a time; its counters have 32 bits.
-constexpr std::size_t kInflateStep = std::size_t{1} << 30U;
+/// Bytes that zlib takes or gives between two looks at the stop token; its counters have 32 bits.
+constexpr std::size_t kInflateStep = std::size_t{1} << 22U;
+
+constexpr int kPatience = 100;  ///< milliseconds between two looks while a pipe has nothing
 
 std::string system_reason() {
   return std::strerror(errno);
+}
+
+/// To open a pipe waits until somebody writes into it, and no stop token ends that. So it is opened
+/// without waiting; wait_for_bytes() does that.
+int open_flags(const std::filesystem::path& path) {
+  std::error_code error;
+  return O_RDONLY | O_CLOEXEC | (std::filesystem::is_fifo(path, error) ? O_NONBLOCK : 0);
+}
+
+/// Until there is something to read, or the end, or an error.
+void wait_for_bytes(int descriptor, const Progress& progress) {
+  pollfd waiting{.fd = descriptor, .events = POLLIN, .revents = 0};
+  do {
+    progress.check_stop();
+  } while (::poll(&waiting, 1, kPatience) == 0);
 }
 
 }  // namespace
@@ -67,8 +85,9 @@ std::string file_type(const std::filesystem::path& path) {
   return extension.empty() ? extension : extension.substr(1);
 }
 
-FileBytes::FileBytes(const std::filesystem::path& path, Packing packing) : name_(path.string()) {
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+FileBytes::FileBytes(const std::filesystem::path& path, Packing packing, const Progress& progress)
+    : name_(path.string()) {
+  const Descriptor file(::open(path.c_str(), open_flags(path)));
   if (file.value() < 0) fail("cannot be opened: " + system_reason());
   struct stat status {};
   if (::fstat(file.value(), &status) != 0) fail("cannot be examined: " + system_reason());
@@ -76,10 +95,10 @@ FileBytes::FileBytes(const std::filesystem::path& path, Packing packing) : name_
   if (S_ISREG(status.st_mode) && status.st_size > 0) {
     map(file.value(), static_cast<std::size_t>(status.st_size));
   } else if (!S_ISREG(status.st_mode)) {
-    read_stream(file.value());
+    read_stream(file.value(), progress);
   }
   if (bytes_.empty()) fail("byte 0: the file is empty");
-  if (packing == Packing::unpack && is_packed(path)) unpack();
+  if (packing == Packing::unpack && is_packed(path)) unpack(progress);
   if (bytes_.empty()) fail("byte 0: the unpacked file is empty");
 }
 
@@ -96,11 +115,12 @@ void FileBytes::map(int descriptor, std::size_t size) {
   bytes_ = {static_cast<const char*>(address), size};
 }
 
-void FileBytes::read_stream(int descriptor) {
+void FileBytes::read_stream(int descriptor, const Progress& progress) {
   std::array<char, 65536> block{};
   while (true) {
+    wait_for_bytes(descriptor, progress);
     const ssize_t got = ::read(descriptor, block.data(), block.size());
-    if (got < 0 && errno == EINTR) continue;
+    if (got < 0 && (errno == EINTR || errno == EAGAIN)) continue;
     if (got < 0) fail("cannot be read: " + system_reason());
     if (got == 0) break;
     owned_.append(block.data(), static_cast<std::size_t>(got));
@@ -108,7 +128,7 @@ void FileBytes::read_stream(int descriptor) {
   bytes_ = owned_;
 }
 
-void FileBytes::unpack() {
+void FileBytes::unpack(const Progress& progress) {
   Inflater inflater;
   if (!inflater.is_ready) fail("zlib cannot be started");
   z_stream& stream = inflater.stream;
@@ -117,6 +137,7 @@ void FileBytes::unpack() {
   std::size_t filled = 0;
   int result = Z_OK;
   while (result != Z_STREAM_END || taken < bytes_.size()) {
+    progress.check_stop();
     if (filled == unpacked.size()) unpacked.resize(std::max(2 * filled, 4 * bytes_.size()));
     const std::size_t input = std::min(bytes_.size() - taken, kInflateStep);
     const std::size_t room = std::min(unpacked.size() - filled, kInflateStep);

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/progress.h"
+
 namespace rangezip {
 
 /// The type of a file by its name: the last extension in lower case without the dot, and without a
@@ -20,7 +22,9 @@ class FileBytes {
 
   /// @throws IoError if the file is missing, a folder, unreadable or empty, or if a .gz is cut or
   ///     corrupt.
-  explicit FileBytes(const std::filesystem::path& path, Packing packing = Packing::unpack);
+  /// @throws Cancelled if `progress` says so, also while a pipe has nothing to read.
+  explicit FileBytes(const std::filesystem::path& path, Packing packing = Packing::unpack,
+                     const Progress& progress = {});
   ~FileBytes();
   FileBytes(const FileBytes&) = delete;
   FileBytes& operator=(const FileBytes&) = delete;
@@ -40,8 +44,8 @@ class FileBytes {
 
  private:
   void map(int descriptor, std::size_t size);
-  void read_stream(int descriptor);
-  void unpack();
+  void read_stream(int descriptor, const Progress& progress);
+  void unpack(const Progress& progress);
 
   std::string name_;
   std::string owned_;    ///< unpacked bytes, or those of something that cannot be mapped

@@ -99,7 +99,7 @@ InputFile read_one(const FileBytes& file, const Mat4& world_from_file, const Pro
   InputFile input;
   const Mat4 world_from_item = world_from_file * translation(geometry.positions.origin());
   if (geometry.polygons != 0) note_unused(geometry, report.notes);
-  SplitPolygons split = split_polygons(geometry);
+  SplitPolygons split = split_polygons(geometry, progress);
   report.nonfinite_polygons = split.nonfinite;
   report.degenerate_polygons = split.degenerate;
   report.triangles = split.triangles.size();
@@ -134,15 +134,16 @@ InputFile read_opened_input(const FileBytes& file, const Progress& progress) {
 InputFile read_input(const std::filesystem::path& path, const Progress& progress) {
   if (!is_list_of_scans(path)) {
     check_geometry_type(path);
-    return read_opened_input(FileBytes(path), progress);
+    return read_opened_input(FileBytes(path, FileBytes::Packing::unpack, progress), progress);
   }
-  const FileBytes file(path);
+  const FileBytes file(path, FileBytes::Packing::unpack, progress);
   InputFile all;
   for (const PlacedScan& scan : read_conf(file)) {
     progress.check_stop();
     if (is_list_of_scans(scan.path)) file.fail("a list of scans must not name another list");
     check_geometry_type(scan.path);
-    InputFile one = read_one(FileBytes(scan.path), scan.world_from_scan, progress);
+    InputFile one = read_one(FileBytes(scan.path, FileBytes::Packing::unpack, progress),
+                             scan.world_from_scan, progress);
     std::move(one.items.begin(), one.items.end(), std::back_inserter(all.items));
     std::move(one.reports.begin(), one.reports.end(), std::back_inserter(all.reports));
   }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "core/base/progress.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace rangezip {
@@ -30,6 +31,8 @@ void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh,
 /// Reads a mesh with its connectivity, positions in double: PLY, OBJ, OFF, STL (corners at the same
 /// place are joined), .gz of each. Polygons are split. Not checked for manifoldness.
 /// @throws IoError naming file, place and rule; also if there is no face.
-[[nodiscard]] TriangleMesh read_mesh(const std::filesystem::path& path);
+/// @throws Cancelled if `progress` says so.
+[[nodiscard]] TriangleMesh read_mesh(const std::filesystem::path& path,
+                                     const Progress& progress = {});
 
 }  // namespace rangezip

@@ -4,15 +4,16 @@
 
 namespace rangezip {
 
-TriangleMesh read_mesh(const std::filesystem::path& path) {
+TriangleMesh read_mesh(const std::filesystem::path& path, const Progress& progress) {
   check_geometry_type(path);
-  return read_opened_mesh(FileBytes(path));
+  return read_opened_mesh(FileBytes(path, FileBytes::Packing::unpack, progress), progress);
 }
 
-TriangleMesh read_opened_mesh(const FileBytes& file) {
-  RawGeometry geometry = read_geometry(file, PositionList::Precision::exact, std::nullopt, {});
+TriangleMesh read_opened_mesh(const FileBytes& file, const Progress& progress) {
+  RawGeometry geometry =
+      read_geometry(file, PositionList::Precision::exact, std::nullopt, progress);
   TriangleMesh mesh;
-  mesh.triangles = split_polygons(geometry).triangles;
+  mesh.triangles = split_polygons(geometry, progress).triangles;
   if (mesh.triangles.empty()) {
     file.fail("whole file: a mesh has at least one face with three distinct finite corners; " +
               std::to_string(geometry.polygons) + " faces were found");

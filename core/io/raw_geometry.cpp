@@ -60,12 +60,15 @@ void PositionList::add(std::span<const Vec3> block) {
                  [&origin](const Vec3& p) { return Vec3f(p - origin); });
 }
 
-SplitPolygons split_polygons(const RawGeometry& geometry) {
+SplitPolygons split_polygons(const RawGeometry& geometry, const Progress& progress) {
+  constexpr std::size_t kBlock = 65536;  // polygons between two looks at the stop token
   SplitPolygons split;
   split.triangles.reserve(geometry.polygon_sizes.size());
   std::vector<Vec3> positions;
   std::span<const std::uint32_t> rest = geometry.corners;
-  for (const std::uint32_t size : geometry.polygon_sizes) {
+  for (std::size_t i = 0; i < geometry.polygon_sizes.size(); ++i) {
+    if (i % kBlock == 0) progress.check_stop();
+    const std::uint32_t size = geometry.polygon_sizes[i];
     const auto polygon = rest.first(size);
     rest = rest.subspan(size);
     positions.clear();
@@ -79,7 +82,7 @@ SplitPolygons split_polygons(const RawGeometry& geometry) {
       continue;
     }
     const std::size_t before = split.triangles.size();
-    split_polygon(polygon, positions, split.triangles);
+    split_polygon(polygon, positions, split.triangles, progress);
     if (split.triangles.size() == before) ++split.degenerate;
   }
   return split;

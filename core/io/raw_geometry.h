@@ -132,6 +132,8 @@ struct SplitPolygons {
   std::size_t nonfinite = 0;   ///< polygons left out: a corner is not finite
   std::size_t degenerate = 0;  ///< polygons left out: fewer than three distinct corners
 };
-[[nodiscard]] SplitPolygons split_polygons(const RawGeometry& geometry);
+/// @throws Cancelled if `progress` says so.
+[[nodiscard]] SplitPolygons split_polygons(const RawGeometry& geometry,
+                                           const Progress& progress = {});
 
 }  // namespace rangezip

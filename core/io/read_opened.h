@@ -16,6 +16,6 @@ namespace rangezip {
 [[nodiscard]] InputFile read_opened_input(const FileBytes& file, const Progress& progress);
 
 /// As read_mesh(). @pre check_geometry_type() knows the type of `file`
-[[nodiscard]] TriangleMesh read_opened_mesh(const FileBytes& file);
+[[nodiscard]] TriangleMesh read_opened_mesh(const FileBytes& file, const Progress& progress);
 
 }  // namespace rangezip

@@ -82,9 +82,10 @@ void check_extent(const Scene& scene, std::span<const std::filesystem::path> pat
 }
 
 /// The cloud itself, or another in an order that is drawn faster.
-std::shared_ptr<const PointCloud> for_scanning(std::shared_ptr<const PointCloud> cloud) {
+std::shared_ptr<const PointCloud> for_scanning(std::shared_ptr<const PointCloud> cloud,
+                                               const Progress& progress) {
   if (follow_each_other(cloud->positions)) return cloud;
-  return std::make_shared<const PointCloud>(ordered_along_curve(*cloud));
+  return std::make_shared<const PointCloud>(ordered_along_curve(*cloud, progress));
 }
 
 }  // namespace
@@ -97,7 +98,7 @@ SceneInput read_scene(std::span<const std::filesystem::path> paths, const Progre
     InputFile file = read_input(paths[i], progress);
     for (InputItem& item : file.items) {
       if (item.cloud) {
-        input.scene.add(for_scanning(std::move(item.cloud)), item.world_from_item);
+        input.scene.add(for_scanning(std::move(item.cloud), progress), item.world_from_item);
       } else {
         input.scene.add(std::move(item.soup), item.world_from_item);
       }

@@ -185,9 +185,9 @@ SessionFile session_of(const Json& json, const fs::path& folder) {
   return session;
 }
 
-void check_input(const SessionInput& input) {
+void check_input(const SessionInput& input, const Progress& progress) {
   if (!input.hash) return;
-  const std::uint64_t hash = hash_file(input.path);
+  const std::uint64_t hash = hash_file(input.path, progress);
   if (hash == *input.hash) return;
   throw IoError(input.path.string() +
                 ": has changed since the session was recorded: the hash of its content must be " +
@@ -229,12 +229,12 @@ SessionFile read_session(const fs::path& path) {
   }
 }
 
-void check_session_inputs(const SessionFile& session) {
+void check_session_inputs(const SessionFile& session, const Progress& progress) {
   for (const SessionInput& input : session.inputs)
-    check_input(input);
+    check_input(input, progress);
   for (const SessionInput& input : session.also_read)
-    check_input(input);
-  if (session.initial_mesh) check_input(*session.initial_mesh);
+    check_input(input, progress);
+  if (session.initial_mesh) check_input(*session.initial_mesh, progress);
 }
 
 }  // namespace rangezip

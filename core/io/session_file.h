@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/session/command.h"
 
 namespace rangezip {
@@ -49,7 +50,8 @@ void write_session(const std::filesystem::path& path, const SessionFile& session
 
 /// Compares the content of every file that has a hash with it.
 /// @throws IoError if one is missing, unreadable or changed.
-void check_session_inputs(const SessionFile& session);
+/// @throws Cancelled if `progress` says so.
+void check_session_inputs(const SessionFile& session, const Progress& progress = {});
 
 /// The JSON Schema (2020-12) of these files, made from the same list of fields that reader and
 /// writer use; docs/session-schema.json is this text.

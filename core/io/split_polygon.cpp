@@ -88,8 +88,9 @@ class CornerMarks {
 /// again before its neighbours have changed or the corner that lies in its triangle is gone.
 class EarClipper {
  public:
-  explicit EarClipper(std::span<const Vec2> flat)
+  EarClipper(std::span<const Vec2> flat, const Progress& progress)
       : flat_(flat),
+        progress_(progress),
         corners_(flat),
         may_be_ear_(flat.size()),
         blocked_(flat.size()),
@@ -115,6 +116,7 @@ class EarClipper {
   /// corner at the start is taken, so that clipping ends.
   [[nodiscard]] std::size_t find_ear() {
     while (const auto corner = may_be_ear_.next(start_)) {
+      progress_.check_stop();  // for one ear all corners may be asked
       if (is_ear(*corner)) return *corner;
       may_be_ear_.clear(*corner);
     }
@@ -148,6 +150,7 @@ class EarClipper {
   }
 
   std::span<const Vec2> flat_;
+  const Progress& progress_;
   CornerTree corners_;
   CornerMarks may_be_ear_;
   std::vector<std::vector<std::size_t>> blocked_;  ///< whose triangles a corner was found in
@@ -160,7 +163,7 @@ class EarClipper {
 }  // namespace
 
 void split_polygon(std::span<const std::uint32_t> polygon, std::span<const Vec3> positions,
-                   std::vector<Triangle>& triangles) {
+                   std::vector<Triangle>& triangles, const Progress& progress) {
   if (polygon.size() < 3) return;
   const auto emit = [&](std::size_t a, std::size_t b, std::size_t c) {
     if (positions[a] == positions[b] || positions[b] == positions[c] ||
@@ -178,7 +181,7 @@ void split_polygon(std::span<const std::uint32_t> polygon, std::span<const Vec3>
     for (std::size_t i = 2; i < polygon.size(); ++i)
       emit(0, i - 1, i);
   } else {
-    EarClipper(flat).clip(emit);
+    EarClipper(flat, progress).clip(emit);
   }
 }
 

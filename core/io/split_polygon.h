@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/geometry.h"
+#include "core/base/progress.h"
 
 namespace rangezip {
 
@@ -16,7 +17,8 @@ namespace rangezip {
 /// @param polygon corners, as indices of `positions`
 /// @param positions finite, one per corner, in the order of `polygon`
 /// @param triangles the pieces are appended to it
+/// @throws Cancelled if `progress` says so.
 void split_polygon(std::span<const std::uint32_t> polygon, std::span<const Vec3> positions,
-                   std::vector<Triangle>& triangles);
+                   std::vector<Triangle>& triangles, const Progress& progress = {});
 
 }  // namespace rangezip

@@ -14,6 +14,7 @@ namespace {
 constexpr std::size_t kMostHeaderLines = 64;  ///< a longer text before the first point is no header
 constexpr std::size_t kShortestLine = 6;      ///< bytes of "0 0 0" and a line end
 constexpr std::size_t kBlock = 65536;         ///< lines between two looks at the stop token
+constexpr std::size_t kByteBlock = std::size_t{1} << 24U;  ///< the same in bytes, to count lines
 
 /// How the columns of a file are parted and which are x, y and z.
 struct Layout {
@@ -110,6 +111,17 @@ void apply_names(std::string_view header, std::string_view first_line, Layout& l
   layout.columns = columns;
 }
 
+/// How many lines a text has at most.
+std::size_t count_lines(std::string_view text, const Progress& progress) {
+  std::size_t ends = 0;
+  for (std::size_t at = 0; at < text.size(); at += kByteBlock) {
+    progress.check_stop();
+    const std::string_view block = text.substr(at, kByteBlock);
+    ends += static_cast<std::size_t>(std::count(block.begin(), block.end(), '\n'));
+  }
+  return ends + 1;
+}
+
 class XyzReader {
  public:
   XyzReader(const FileBytes& file, RawGeometry& geometry)
@@ -120,9 +132,8 @@ class XyzReader {
     if (file_.bytes().starts_with(kByteOrderMark)) {
       lines_ = TextLines(file_.bytes().substr(kByteOrderMark.size()));
     }
-    geometry_.positions.reserve(std::min(
-        static_cast<std::size_t>(std::count(file_.bytes().begin(), file_.bytes().end(), '\n')) + 1,
-        file_.bytes().size() / kShortestLine + 1));
+    geometry_.positions.reserve(
+        std::min(count_lines(file_.bytes(), progress), file_.bytes().size() / kShortestLine + 1));
     read_header();
     std::string_view line;
     for (std::size_t number = 0; lines_.next(line); ++number) {

@@ -15,6 +15,8 @@ namespace rangezip {
 
 namespace {
 
+constexpr std::size_t kBlock = 65536;  ///< faces or vertices between two looks at the stop token
+
 /// Corner i of face f has number 3 f + i; its half-edge runs from it to the next corner.
 std::uint32_t next_corner(std::uint32_t corner) {
   return corner % 3 == 2 ? corner - 2 : corner + 1;
@@ -40,21 +42,24 @@ class SortedHalfEdges {
     friend auto operator<=>(const HalfEdge&, const HalfEdge&) = default;
   };
 
-  explicit SortedHalfEdges(const TriangleMesh& mesh) : first_(mesh.positions.size() + 1, 0) {
-    for_each(mesh, [&](std::uint32_t low, HalfEdge) { ++first_[low + 1]; });
+  SortedHalfEdges(const TriangleMesh& mesh, const Progress& progress)
+      : first_(mesh.positions.size() + 1, 0) {
+    for_each(mesh, progress, [&](std::uint32_t low, HalfEdge) { ++first_[low + 1]; });
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     sorted_.resize(first_.back());
     std::vector<std::size_t> place(first_.begin(), first_.end() - 1);
-    for_each(mesh, [&](std::uint32_t low, HalfEdge h) { sorted_[place[low]++] = h; });
+    for_each(mesh, progress, [&](std::uint32_t low, HalfEdge h) { sorted_[place[low]++] = h; });
     for (std::size_t low = 0; low + 1 < first_.size(); ++low) {
+      if (low % kBlock == 0) progress.check_stop();
       std::sort(begin_of(low), begin_of(low + 1));
     }
   }
 
   /// Calls edge(half_edges) for every edge.
   template <class F>
-  void for_each_edge(const F& edge) const {
+  void for_each_edge(const Progress& progress, const F& edge) const {
     for (std::size_t low = 0; low + 1 < first_.size(); ++low) {
+      if (low % kBlock == 0) progress.check_stop();
       for (std::size_t i = first_[low]; i < first_[low + 1];) {
         std::size_t end = i + 1;
         while (end < first_[low + 1] && sorted_[end].high == sorted_[i].high)
@@ -67,8 +72,9 @@ class SortedHalfEdges {
 
  private:
   template <class F>
-  static void for_each(const TriangleMesh& mesh, const F& visit) {
+  static void for_each(const TriangleMesh& mesh, const Progress& progress, const F& visit) {
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+      if (f % kBlock == 0) progress.check_stop();
       const Triangle& t = mesh.triangles[f];
       if (has_repeated_corner(t)) continue;
       for (std::size_t i = 0; i < 3; ++i) {
@@ -208,9 +214,10 @@ void check_elements(const TriangleMesh& mesh) {
   }
 }
 
-EdgeMap checked_edges(const TriangleMesh& mesh) {
+EdgeMap checked_edges(const TriangleMesh& mesh, const Progress& progress) {
   EdgeMap edges(3 * mesh.triangles.size());
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    if (f % kBlock == 0) progress.check_stop();
     const Triangle& t = mesh.triangles[f];
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t from = t[i];
@@ -249,7 +256,7 @@ std::size_t size_of_fan(const TriangleMesh& mesh, const EdgeMap& edges, std::uin
   return size;
 }
 
-void check_fans(const TriangleMesh& mesh, const EdgeMap& edges) {
+void check_fans(const TriangleMesh& mesh, const EdgeMap& edges, const Progress& progress) {
   std::vector<std::uint32_t> faces(mesh.positions.size(), 0);
   std::vector<std::uint32_t> any_face(mesh.positions.size(), EdgeMap::kNone);
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
@@ -259,6 +266,7 @@ void check_fans(const TriangleMesh& mesh, const EdgeMap& edges) {
     }
   }
   for (std::size_t v = 0; v < faces.size(); ++v) {
+    if (v % kBlock == 0) progress.check_stop();
     if (faces[v] == 0) continue;
     if (size_of_fan(mesh, edges, static_cast<std::uint32_t>(v), any_face[v]) != faces[v]) {
       throw TopologyError("check_mesh: vertex " + std::to_string(v) +
@@ -269,14 +277,15 @@ void check_fans(const TriangleMesh& mesh, const EdgeMap& edges) {
 
 }  // namespace
 
-MeshReport report_mesh(const TriangleMesh& mesh) {
+MeshReport report_mesh(const TriangleMesh& mesh, const Progress& progress) {
   MeshReport report;
   Pieces pieces(mesh);
   const std::size_t proper_faces = count_faces(mesh, pieces.fans_of, report);
   report.vertices = count_if_more(pieces.fans_of, 0);
   report.components = proper_faces;
-  SortedHalfEdges(mesh).for_each_edge(
-      [&](std::span<const HalfEdge> sides) { count_edge(mesh, sides, pieces, report); });
+  SortedHalfEdges(mesh, progress).for_each_edge(progress, [&](std::span<const HalfEdge> sides) {
+    count_edge(mesh, sides, pieces, report);
+  });
   report.boundary_edges = pieces.boundary.size();
   report.nonmanifold_vertices = count_if_more(pieces.fans_of, 1);
   report.euler = static_cast<std::ptrdiff_t>(report.vertices) -
@@ -286,9 +295,9 @@ MeshReport report_mesh(const TriangleMesh& mesh) {
   return report;
 }
 
-void check_mesh(const TriangleMesh& mesh) {
+void check_mesh(const TriangleMesh& mesh, const Progress& progress) {
   check_elements(mesh);
-  check_fans(mesh, checked_edges(mesh));
+  check_fans(mesh, checked_edges(mesh, progress), progress);
 }
 
 }  // namespace rangezip

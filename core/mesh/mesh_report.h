@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "core/base/progress.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace rangezip {
@@ -27,12 +28,14 @@ struct MeshReport {
   }
 };
 
-[[nodiscard]] MeshReport report_mesh(const TriangleMesh& mesh);
+/// @throws Cancelled if `progress` says so.
+[[nodiscard]] MeshReport report_mesh(const TriangleMesh& mesh, const Progress& progress = {});
 
 /// Throws if the mesh breaks a rule that every operation here keeps: an index out of range, a
 /// coordinate that is not finite, a repeated corner, a directed edge in two faces, a vertex with
 /// two fans. For tests and for input from outside; O(faces).
 /// @throws TopologyError naming the rule and the element.
-void check_mesh(const TriangleMesh& mesh);
+/// @throws Cancelled if `progress` says so.
+void check_mesh(const TriangleMesh& mesh, const Progress& progress = {});
 
 }  // namespace rangezip

@@ -32,6 +32,8 @@ constexpr std::size_t kMostInCell = 1024;
 constexpr std::size_t kMostEntriesPerTriangle = 64;
 constexpr std::size_t kCellsPerBlock = 4096;
 constexpr std::size_t kTrianglesPerBlock = 16384;
+/// Of one cell, between two looks at the stop token: bad meshes have all triangles in one.
+constexpr std::size_t kEntriesPerLook = 256;
 
 /// Of their first sides.
 double mean_side(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles) {
@@ -224,8 +226,10 @@ CellLists sort_into_cells(const Triangles& triangles, const std::vector<CellRang
 /// lower corner of their common box.
 void collect_cell(const Triangles& triangles, const CellGrid& grid,
                   std::span<const std::uint32_t> entries, std::size_t cell,
-                  std::span<const std::uint8_t> changed, std::vector<Pair>& pairs) {
+                  std::span<const std::uint8_t> changed, std::vector<Pair>& pairs,
+                  const Progress& progress) {
   for (std::size_t k = 1; k < entries.size(); ++k) {
+    if (k % kEntriesPerLook == 0) progress.check_stop();
     const std::uint32_t j = entries[k];
     const Box& second = triangles.box(j);
     for (std::size_t m = 0; m < k; ++m) {
@@ -244,12 +248,15 @@ void append_blocks(std::vector<std::vector<Pair>>& blocks, std::vector<Pair>& pa
 }
 
 void collect_cells(const Triangles& triangles, const CellGrid& grid, const CellLists& lists,
-                   std::span<const std::uint8_t> changed, std::vector<Pair>& pairs) {
+                   std::span<const std::uint8_t> changed, std::vector<Pair>& pairs,
+                   const Progress& progress) {
   std::vector<std::vector<Pair>> blocks((grid.cell_count() + kCellsPerBlock - 1) / kCellsPerBlock);
   parallel_for(grid.cell_count(), kCellsPerBlock, [&](std::size_t begin, std::size_t end) {
+    progress.check_stop();
     for (std::size_t cell = begin; cell < end; ++cell) {
       if (lists.count(cell) < 2 || lists.is_crowded(cell)) continue;
-      collect_cell(triangles, grid, lists.of(cell), cell, changed, blocks[begin / kCellsPerBlock]);
+      collect_cell(triangles, grid, lists.of(cell), cell, changed, blocks[begin / kCellsPerBlock],
+                   progress);
     }
   });
   append_blocks(blocks, pairs);
@@ -268,7 +275,8 @@ void collect_all_of(const Triangles& triangles, std::uint32_t i,
 }
 
 void collect_large(const Triangles& triangles, std::span<const std::uint32_t> large,
-                   std::span<const std::uint8_t> changed, std::vector<Pair>& pairs) {
+                   std::span<const std::uint8_t> changed, std::vector<Pair>& pairs,
+                   const Progress& progress) {
   if (large.empty() || large.size() > kMostLarge) return;
   std::vector<std::uint8_t> is_large(triangles.size(), 0);
   for (const std::uint32_t i : large)
@@ -276,6 +284,7 @@ void collect_large(const Triangles& triangles, std::span<const std::uint32_t> la
   std::vector<std::vector<Pair>> blocks(large.size());
   parallel_for(large.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
+      progress.check_stop();
       collect_all_of(triangles, large[k], is_large, changed, blocks[k]);
     }
   });
@@ -304,7 +313,8 @@ std::vector<Part> parts_in_crowd(const Triangles& triangles, const CellLists& li
 
 /// Pairs of crowded cells and of large triangles, if these are many.
 void collect_crowd(const Triangles& triangles, const CellGrid& grid, const CellLists& lists,
-                   std::span<const std::uint8_t> changed, std::vector<Pair>& pairs) {
+                   std::span<const std::uint8_t> changed, std::vector<Pair>& pairs,
+                   const Progress& progress) {
   const std::vector<Part> parts = parts_in_crowd(triangles, lists);
   std::vector<std::uint32_t> members;  // by rank, the asking ones first
   const auto add = [&](const auto& is_added) {
@@ -324,6 +334,7 @@ void collect_crowd(const Triangles& triangles, const CellGrid& grid, const CellL
   const auto is_pair = [&](std::uint32_t a, std::uint32_t b) {
     const std::uint32_t i = members[a], j = members[b];
     const Box &first = triangles.box(i), &second = triangles.box(j);
+    progress.check_stop();  // there is no telling how many are asked for
     if (!is_asked(changed, i, j) || !boxes_meet(first, second)) return false;
     if (parts[i] != Part::large && parts[j] != Part::large &&
         !lists.is_crowded(grid.index_of(glm::max(first.lower, second.lower)))) {
@@ -379,16 +390,19 @@ std::vector<std::uint32_t> around(const TriangleMesh& mesh,
 }
 
 /// `changed` says of triangles by rank what is asked, or is empty: all.
-std::vector<Pair> find_pairs(const Triangles& triangles, std::span<const std::uint8_t> changed) {
+std::vector<Pair> find_pairs(const Triangles& triangles, std::span<const std::uint8_t> changed,
+                             const Progress& progress) {
   std::vector<Pair> pairs;
   if (triangles.size() == 0) return pairs;
+  progress.check_stop();
   const auto [grid, ranges] = layout_of(triangles);
+  progress.check_stop();
   std::vector<std::uint8_t> wanted;
   if (!changed.empty()) wanted = cells_asked(triangles, ranges, grid, changed);
   const CellLists lists = sort_into_cells(triangles, ranges, grid, wanted);
-  collect_cells(triangles, grid, lists, changed, pairs);
-  collect_large(triangles, lists.large, changed, pairs);
-  collect_crowd(triangles, grid, lists, changed, pairs);
+  collect_cells(triangles, grid, lists, changed, pairs, progress);
+  collect_large(triangles, lists.large, changed, pairs, progress);
+  collect_crowd(triangles, grid, lists, changed, pairs, progress);
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     const bool asked = changed.empty() || changed[i] != kSame;
     if (asked && triangles.is_degenerate_at(i)) pairs.emplace_back(i, i);
@@ -403,13 +417,14 @@ std::vector<Pair> find_pairs(const Triangles& triangles, std::span<const std::ui
 
 }  // namespace
 
-std::vector<Pair> self_intersections(const TriangleMesh& mesh) {
-  return find_pairs(Triangles(mesh, all_of(mesh)), {});
+std::vector<Pair> self_intersections(const TriangleMesh& mesh, const Progress& progress) {
+  return find_pairs(Triangles(mesh, all_of(mesh)), {}, progress);
 }
 
 std::vector<Pair> self_intersections(const TriangleMesh& mesh,
                                      std::span<const std::uint32_t> changed,
-                                     std::span<const std::uint32_t> apart) {
+                                     std::span<const std::uint32_t> apart,
+                                     const Progress& progress) {
   if (changed.empty()) return {};
   const Triangles triangles(mesh, around(mesh, changed));
   std::vector<std::uint8_t> is_changed(mesh.triangles.size(), kSame);
@@ -420,7 +435,7 @@ std::vector<Pair> self_intersections(const TriangleMesh& mesh,
   std::vector<std::uint8_t> flags(triangles.size());
   for (std::size_t rank = 0; rank < flags.size(); ++rank)
     flags[rank] = is_changed[triangles.number(rank)];
-  return find_pairs(triangles, flags);
+  return find_pairs(triangles, flags, progress);
 }
 
 }  // namespace rangezip

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace rangezip {
@@ -16,16 +17,18 @@ namespace rangezip {
 /// as CGAL's Polygon_mesh_processing::self_intersections.
 /// Cost: a uniform grid over the triangles, about linear for meshes of even size; where it tells
 /// too few of them apart, as slivers across the axes, that of core/mesh/crowded_triangles.h.
+/// @throws Cancelled if `progress` says so.
 [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(
-    const TriangleMesh& mesh);
+    const TriangleMesh& mesh, const Progress& progress = {});
 
 /// The same, only pairs with at least one triangle of `changed` (indices, any order). But for one
 /// look at every triangle, the cost is that of the triangles near the changed ones.
 /// @param apart those of the changed ones that are known not to meet each other, as the triangles
 /// of
 ///     one range image; they are compared with all others
+/// @throws Cancelled if `progress` says so.
 [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> self_intersections(
     const TriangleMesh& mesh, std::span<const std::uint32_t> changed,
-    std::span<const std::uint32_t> apart = {});
+    std::span<const std::uint32_t> apart = {}, const Progress& progress = {});
 
 }  // namespace rangezip

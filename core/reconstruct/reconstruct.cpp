@@ -412,12 +412,13 @@ class Run {
     ReconstructReport& report = result_.report;
     SeenPoints seen{.points = samples_};
     if (const auto vote = vote_on_faces()) seen.votes = session_.votes(rasterizer_, *vote);
-    run_side_by_side([&] { report.self_intersections = self_intersections(*mesh).size(); },
-                     [&] {
-                       report.mesh = report_mesh(*mesh);
-                       report.coverage = report_coverage(seen, *mesh, recipe_.pixel_size);
-                       result_.mesh = *mesh;
-                     });
+    run_side_by_side(
+        [&] { report.self_intersections = self_intersections(*mesh, progress_).size(); },
+        [&] {
+          report.mesh = report_mesh(*mesh, progress_);
+          report.coverage = report_coverage(seen, *mesh, recipe_.pixel_size);
+          result_.mesh = *mesh;
+        });
     book("check");
   }
 

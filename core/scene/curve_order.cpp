@@ -23,11 +23,13 @@ bool follow_each_other(std::span<const Vec3f> positions) {
   return close > kPairs / 2;
 }
 
-PointCloud ordered_along_curve(const PointCloud& cloud) {
+PointCloud ordered_along_curve(const PointCloud& cloud, const Progress& progress) {
+  constexpr std::size_t kBlock = 65536;  // points between two looks at the stop token
   PointCloud ordered;
   ordered.positions.reserve(cloud.positions.size());
   ordered.numbers.reserve(cloud.positions.size());
-  for (const std::uint32_t i : order_along_curve(cloud.positions)) {
+  for (const std::uint32_t i : order_along_curve(cloud.positions, progress)) {
+    if (ordered.positions.size() % kBlock == 0) progress.check_stop();
     ordered.positions.push_back(cloud.positions[i]);
     ordered.numbers.push_back(cloud.numbers.empty() ? i : cloud.numbers[i]);
   }

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "core/base/geometry.h"
+#include "core/base/progress.h"
 #include "core/scene/scene.h"
 
 namespace rangezip {
@@ -18,6 +19,8 @@ namespace rangezip {
 /// processor time.
 /// @pre all positions are finite, at most 2^32 - 1 of them. O(n); 16 bytes a point beside the
 /// result.
-[[nodiscard]] PointCloud ordered_along_curve(const PointCloud& cloud);
+/// @throws Cancelled if `progress` says so.
+[[nodiscard]] PointCloud ordered_along_curve(const PointCloud& cloud,
+                                             const Progress& progress = {});
 
 }  // namespace rangezip

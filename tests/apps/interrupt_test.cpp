@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <sys/stat.h>
+
 #include <csignal>
 
 #include "tests/apps/program.h"
@@ -32,6 +34,16 @@ TEST_CASE("an interrupted run leaves the file that it would have overwritten", "
             {.signal = SIGINT, .signal_after = "meshing: plan views"})
             .code == 130);
   CHECK(load(folder / "sphere.ply") == before);
+  CHECK(folder.count() == 1);
+}
+
+TEST_CASE("a run that waits for a pipe nobody writes into can be interrupted", "[apps]") {
+  const TemporaryFolder folder;
+  REQUIRE(mkfifo((folder / "p.xyz").c_str(), S_IRUSR | S_IWUSR) == 0);
+  const RunResult result = run({"mesh", folder / "p.xyz", "-o", folder / "out.ply"},
+                               {.signal = SIGTERM, .signal_after = "reading: read"});
+  CHECK(result.code == 130);
+  CHECK_THAT(result.err, Contains("interrupted"));
   CHECK(folder.count() == 1);
 }
 

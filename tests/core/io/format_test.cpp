@@ -1,3 +1,4 @@
+#include <sys/stat.h>
 #include <zlib.h>
 
 #include <array>
@@ -6,8 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "core/io/file_hash.h"
 #include "core/io/input_with_mesh.h"
 #include "core/io/mesh_file.h"
+#include "core/io/split_polygon.h"
 #include "tests/core/io/temporary_folder.h"
 #include "tests/support/shapes.h"
 
@@ -297,13 +300,35 @@ TEST_CASE("A file read as input and as mesh gives what both readers give; no fac
   CHECK(list.mesh.empty());
 }
 
-TEST_CASE("Reading stops when the caller asks for the end") {
+TEST_CASE("Reading stops when the caller asks for the end, whatever the reader and the file") {
   const TemporaryFolder folder;
   std::stop_source source;
   source.request_stop();
   const Progress progress{.stop = source.get_token()};
-  const std::filesystem::path path = folder.store("a.xyz", "0 0 0\n1 0 0\n0 1 0\n");
-  CHECK_THROWS_AS(read_input(path, progress), Cancelled);
+  const std::filesystem::path cloud = folder.store("a.xyz", "0 0 0\n1 0 0\n0 1 0\n");
+  CHECK_THROWS_AS(read_input(cloud, progress), Cancelled);
+  CHECK_THROWS_AS(hash_file(cloud, progress), Cancelled);
+  for (const char* name : {"a.ply", "a.obj", "a.off", "a.stl"}) {
+    CAPTURE(name);
+    write_mesh(folder / name, tetrahedron());
+    CHECK_THROWS_AS(read_mesh(folder / name, progress), Cancelled);
+    CHECK_THROWS_AS(read_input_with_mesh(folder / name, progress), Cancelled);
+  }
+  // The reader of this type has no progress: what stops is the unpacking.
+  const std::filesystem::path list = folder.store("a.conf.gz", packed("no list", folder));
+  CHECK_THROWS_AS(read_input(list, progress), Cancelled);
+  // Nobody writes into this pipe, so that reading it would wait without end.
+  REQUIRE(mkfifo((folder / "p.xyz").c_str(), S_IRUSR | S_IWUSR) == 0);
+  CHECK_THROWS_AS(read_input(folder / "p.xyz", progress), Cancelled);
+}
+
+TEST_CASE("Cutting a polygon ear by ear stops when the caller asks for the end") {
+  std::stop_source source;
+  source.request_stop();
+  const std::array<std::uint32_t, 4> arrow{0, 1, 2, 3};
+  const std::array<Vec3, 4> places{{{0, 0, 0}, {2, 1, 0}, {0, 2, 0}, {1, 1, 0}}};
+  std::vector<Triangle> triangles;
+  CHECK_THROWS_AS(split_polygon(arrow, places, triangles, {.stop = source.get_token()}), Cancelled);
 }
 
 }  // namespace rangezip

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/base/error.h"
+#include "core/mesh/self_intersection.h"
 #include "tests/support/shapes.h"
 
 namespace rangezip {
@@ -136,6 +137,19 @@ TEST_CASE("check_mesh throws exactly where report_mesh sees a defect", "[mesh]")
     }
     REQUIRE(passes == report_mesh(mesh).is_manifold());
   }
+}
+
+TEST_CASE("report_mesh, check_mesh and self_intersections stop when the caller asks for the end",
+          "[mesh]") {
+  const TriangleMesh mesh = shapes::to_mesh(shapes::sphere(1.0, 8));
+  std::stop_source source;
+  source.request_stop();
+  const Progress progress{.stop = source.get_token()};
+  CHECK_THROWS_AS(report_mesh(mesh, progress), Cancelled);
+  CHECK_THROWS_AS(check_mesh(mesh, progress), Cancelled);
+  CHECK_THROWS_AS(self_intersections(mesh, progress), Cancelled);
+  const std::vector<std::uint32_t> changed{0};
+  CHECK_THROWS_AS(self_intersections(mesh, changed, {}, progress), Cancelled);
 }
 
 }  // namespace

@@ -97,6 +97,14 @@ TEST_CASE("A scene tells the number of a point that was put in another order") {
   CHECK_THROWS_AS(scene.number_of(1002), InvalidArgument);
 }
 
+TEST_CASE("Ordering along a curve stops when the caller asks for the end") {
+  std::stop_source source;
+  source.request_stop();
+  CHECK_THROWS_AS(
+      ordered_along_curve(PointCloud{random_points(10, 1)}, {.stop = source.get_token()}),
+      Cancelled);
+}
+
 TEST_CASE("A scene refuses numbers that are too many, too few or too large") {
   Scene scene;
   const std::vector<Vec3f> two{{0, 0, 0}, {1, 0, 0}};
