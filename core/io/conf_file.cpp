@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/io/raw_geometry.h"
 #include "core/io/text_fields.h"
 
 namespace rangezip {
@@ -38,6 +39,10 @@ PlacedScan read_scan(const FileBytes& file, TextFields& fields, const char* plac
   const double length = std::sqrt(qx * qx + qy * qy + qz * qz + qw * qw);
   if (std::abs(length - 1.0) > kLengthTolerance) {
     file.fail_at_line(place, "the quaternion has length " + std::to_string(length) + ", not 1");
+  }
+  if (!is_usable({tx, ty, tz})) {
+    file.fail_at_line(
+        place, "a scan may be moved by 1e30 along an axis, no farther, as no coordinate is larger");
   }
   PlacedScan scan;
   scan.path = std::filesystem::path(file.name()).parent_path() / name;

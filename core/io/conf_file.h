@@ -17,9 +17,9 @@ struct PlacedScan {
 /// Reads the lines `bmesh FILE tx ty tz qx qy qz qw`; `camera` and `mesh` lines are skipped. The
 /// quaternion turns the world into the scan, so its rotation is inverted here:
 /// p_world = transpose(R(q)) p_scan + t.
-/// @throws IoError naming the line if there is no scan, a file is missing, a number is not finite
-/// or
-///     a quaternion is not of length 1 to a thousandth.
+/// @throws IoError naming the line if there is no scan, a file is missing, a number is not finite,
+///     a scan is moved by more than kLargestCoordinate along an axis, or a quaternion is not of
+///     length 1 to a thousandth.
 [[nodiscard]] std::vector<PlacedScan> read_conf(const FileBytes& file);
 
 }  // namespace rangezip

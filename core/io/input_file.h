@@ -61,7 +61,8 @@ struct SceneInput {
 /// are put in order along a curve (see curve_order.h), which draws faster. Scene::number_of() still
 /// tells their places in the file; only which of two equally near ones is drawn may change.
 /// @throws IoError as read_input(); also if all points and corners together are fewer than three,
-///     equal, or on one line (none farther from it than 1e-5 of the size of the whole).
+///     equal, or on one line (none farther from it than 1e-5 of the size of the whole), or so far
+///     from (0, 0, 0) that doubles there have fewer than 1024 steps across the whole.
 /// @throws InvalidArgument if there is no path.
 [[nodiscard]] SceneInput read_scene(std::span<const std::filesystem::path> paths,
                                     const Progress& progress = {});

@@ -1,4 +1,7 @@
+#include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -15,6 +18,10 @@ namespace {
 /// All points lie on a line if none is farther from it than this share of the size of the scene:
 /// what is thinner cannot be told from a line in text files of six digits.
 constexpr double kLineTolerance = 1e-5;
+
+/// A scene is too far away if doubles at its place have fewer steps across it: its points are
+/// rounded to a coarse lattice, and a camera cannot be placed before it.
+constexpr double kFewestSteps = 1024.0;
 
 /// Calls visit(position) for world positions of points and corners until it returns true.
 template <class Visit>
@@ -59,6 +66,15 @@ bool is_on_a_line(const Scene& scene) {
       scene, [&](const Vec3& p) { return glm::length(glm::cross(along, p - first)) > limit; });
 }
 
+/// Between the largest coordinate and the next larger double.
+double step_at(const Box& bounds) {
+  double largest = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    largest = std::max({largest, std::abs(bounds.lower[axis]), std::abs(bounds.upper[axis])});
+  }
+  return std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
+}
+
 std::string names_of(std::span<const std::filesystem::path> paths) {
   std::string names;
   for (const std::filesystem::path& path : paths) {
@@ -75,6 +91,12 @@ void check_extent(const Scene& scene, std::span<const std::filesystem::path> pat
   }
   if (scene.bounds().diagonal() == 0.0) {
     throw IoError(names + "at least three distinct finite points are needed, but all are equal");
+  }
+  if (scene.bounds().diagonal() < kFewestSteps * step_at(scene.bounds())) {
+    throw IoError(
+        names +
+        "it is so far from (0, 0, 0), and so small, that coordinates cannot tell its points "
+        "apart: move it nearer");
   }
   if (is_on_a_line(scene)) {
     throw IoError(names + "all points lie on one line (to 1e-5 of its length)");

@@ -168,6 +168,8 @@ std::vector<BadFile> bad_files() {
       {"a.conf", "bmesh a.conf 0 0 nan 0 0 0 1\n", "line 1", "seven numbers"},
       {"a.conf", "bmesh a.conf 0 0 0 0 0 0 1 5\n", "line 1", "more than seven"},
       {"a.conf", "bmesh a.conf 0 0 0 0 0 0 2\n", "line 1", "length 2"},
+      {"a.conf", "bmesh missing.ply 0 0 -1.1e30 0 0 0 1\n", "line 1", "1e30"},
+      {"a.conf", "bmesh missing.ply 1e30 0 0 0 0 0 1\n", "line 1", "missing.ply is missing"},
       {"a.conf", "bmesh a.conf 0 0 0 0 0 0 1\n", "", "another list"},
       {"a.conf", "scan a.ply\n", "line 1", "'scan'"},
       // packed files
@@ -194,6 +196,16 @@ TEST_CASE("Bad input is refused by name, place and rule") {
     CHECK(message.find(path.string() + ": " + bad.place) == 0);
     CHECK(message.find(bad.rule) != std::string::npos);
   }
+}
+
+TEST_CASE("What is too small for the doubles where it lies is refused, moved there or not") {
+  const TemporaryFolder folder;
+  folder.store("near.xyz", "0 0 0\n0 1 0\n0 0 1\n");
+  const auto rule = Catch::Matchers::Contains("so far from (0, 0, 0)");
+  CHECK_THAT(refusal(folder.store("a.xyz", "1e20 0 0\n1e20 1 0\n1e20 0 1\n")), rule);
+  CHECK_THAT(refusal(folder.store("far.conf", "bmesh near.xyz 1e20 0 0 0 0 0 1\n")), rule);
+  // Points on the grids of maps, a tenth of a millimetre apart, are well within.
+  CHECK(refusal(folder.store("map.conf", "bmesh near.xyz 5e9 5e9 0 0 0 0 1\n")).empty());
 }
 
 TEST_CASE("Missing files and folders are refused") {
