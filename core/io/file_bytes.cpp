@@ -8,9 +8,9 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "core/base/error.h"
@@ -55,6 +55,11 @@ struct Inflater {
 
 /// Bytes that zlib takes or gives between two looks at the stop token; its counters have 32 bits.
 constexpr std::size_t kInflateStep = std::size_t{1} << 22U;
+
+/// Deflate makes at most 258 bytes of two bits.
+constexpr std::size_t kMostExpansion = 1032;
+
+constexpr std::size_t kReadStep = std::size_t{1} << 20U;  ///< bytes at a time, of a pipe
 
 constexpr int kPatience = 100;  ///< milliseconds between two looks while a pipe has nothing
 
@@ -116,29 +121,32 @@ void FileBytes::map(int descriptor, std::size_t size) {
 }
 
 void FileBytes::read_stream(int descriptor, const Progress& progress) {
-  std::array<char, 65536> block{};
+  owned_ = LazyMemory(std::numeric_limits<std::size_t>::max());
+  std::size_t filled = 0;
   while (true) {
     wait_for_bytes(descriptor, progress);
-    const ssize_t got = ::read(descriptor, block.data(), block.size());
+    if (filled == owned_.size()) fail_for_memory("gives", filled);
+    const std::size_t room = std::min(owned_.size() - filled, kReadStep);
+    const ssize_t got = ::read(descriptor, owned_.data() + filled, room);
     if (got < 0 && (errno == EINTR || errno == EAGAIN)) continue;
     if (got < 0) fail("cannot be read: " + system_reason());
     if (got == 0) break;
-    owned_.append(block.data(), static_cast<std::size_t>(got));
+    filled += static_cast<std::size_t>(got);
   }
-  bytes_ = owned_;
+  bytes_ = {owned_.data(), filled};
 }
 
 void FileBytes::unpack(const Progress& progress) {
   Inflater inflater;
   if (!inflater.is_ready) fail("zlib cannot be started");
   z_stream& stream = inflater.stream;
-  std::string unpacked;
+  LazyMemory unpacked(bytes_.size() * kMostExpansion);
   std::size_t taken = 0;
   std::size_t filled = 0;
   int result = Z_OK;
   while (result != Z_STREAM_END || taken < bytes_.size()) {
     progress.check_stop();
-    if (filled == unpacked.size()) unpacked.resize(std::max(2 * filled, 4 * bytes_.size()));
+    if (filled == unpacked.size()) fail_for_memory("unpacks to", filled);
     const std::size_t input = std::min(bytes_.size() - taken, kInflateStep);
     const std::size_t room = std::min(unpacked.size() - filled, kInflateStep);
     // zlib's interface is not const-correct; it does not write to its input.
@@ -162,11 +170,14 @@ void FileBytes::unpack(const Progress& progress) {
       fail(place + "the gzip data ends early: the file is cut");
     }
   }
-  unpacked.resize(filled);
-  unpacked.shrink_to_fit();
   owned_ = std::move(unpacked);
-  bytes_ = owned_;
+  bytes_ = {owned_.data(), filled};
   if (map_ != nullptr) ::munmap(std::exchange(map_, nullptr), map_size_);
+}
+
+void FileBytes::fail_for_memory(const char* gives, std::size_t bytes) const {
+  fail(std::string(gives) + " more than the " + std::to_string(bytes) +
+       " bytes that there is memory for");
 }
 
 void FileBytes::fail(const std::string& rule) const {

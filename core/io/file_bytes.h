@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/base/progress.h"
+#include "core/io/lazy_memory.h"
 
 namespace rangezip {
 
@@ -20,8 +21,8 @@ class FileBytes {
  public:
   enum class Packing { unpack, keep };  ///< what to do with a .gz
 
-  /// @throws IoError if the file is missing, a folder, unreadable or empty, or if a .gz is cut or
-  ///     corrupt.
+  /// @throws IoError if the file is missing, a folder, unreadable or empty, if a .gz is cut or
+  ///     corrupt, or if a .gz or a pipe gives more than there is memory for (see lazy_memory.h).
   /// @throws Cancelled if `progress` says so, also while a pipe has nothing to read.
   explicit FileBytes(const std::filesystem::path& path, Packing packing = Packing::unpack,
                      const Progress& progress = {});
@@ -46,9 +47,10 @@ class FileBytes {
   void map(int descriptor, std::size_t size);
   void read_stream(int descriptor, const Progress& progress);
   void unpack(const Progress& progress);
+  [[noreturn]] void fail_for_memory(const char* gives, std::size_t bytes) const;
 
   std::string name_;
-  std::string owned_;    ///< unpacked bytes, or those of something that cannot be mapped
+  LazyMemory owned_;     ///< unpacked bytes, or those of something that cannot be mapped
   void* map_ = nullptr;  ///< or the mapping
   std::size_t map_size_ = 0;
   std::string_view bytes_;

@@ -38,6 +38,10 @@ constexpr std::chrono::seconds kLongestRun{120};
     const rlimit limit{*options.file_size_limit, *options.file_size_limit};
     setrlimit(RLIMIT_FSIZE, &limit);
   }
+  if (options.address_limit) {
+    const rlimit limit{*options.address_limit, *options.address_limit};
+    setrlimit(RLIMIT_AS, &limit);
+  }
   std::vector<char*> argv{const_cast<char*>(RANGEZIP_PROGRAM)};
   for (const std::string& argument : arguments)
     argv.push_back(const_cast<char*>(argument.c_str()));

@@ -12,6 +12,7 @@ namespace rangezip::test {
 struct RunOptions {
   std::map<std::string, std::string> environment;  ///< on top of this process's
   std::optional<std::size_t> file_size_limit;      ///< bytes (ulimit -f)
+  std::optional<std::size_t> address_limit;        ///< bytes (ulimit -v)
   bool terminal = false;                           ///< standard error is a terminal
   std::string out_path;                            ///< standard output goes here instead
   /// Sends this signal as soon as standard error holds `signal_after`.
