@@ -71,13 +71,20 @@ void check_command_name(const CLI::App& app, int argc, char** argv) {
   throw CLI::ValidationError(argv[1], "is no command; there are " + known);
 }
 
+/// How to ask for help about the command that was being read: "rangezip mesh --help".
+std::string help_of(const CLI::App& app) {
+  std::string line = app.get_name();
+  for (const CLI::App* command : app.get_subcommands())
+    line += " " + command->get_name();
+  return line + " --help";
+}
+
 int parse_and_run(int argc, char** argv) {
   CLI::App app{"Clean triangle meshes from raw 3D data by virtual range scanning", "rangezip"};
   app.set_version_flag("--version", "rangezip " RANGEZIP_VERSION);
   app.require_subcommand(1);
   app.failure_message([](const CLI::App* failing, const CLI::Error& error) {
-    return "rangezip: " + std::string(error.what()) + "\nSee " + failing->get_display_name() +
-           " --help\n";
+    return "rangezip: " + std::string(error.what()) + "\nSee " + help_of(*failing) + "\n";
   });
   app.footer(std::string("'rangezip COMMAND --help' lists the options of a command.\n\n") +
              kExitCodes);

@@ -101,8 +101,9 @@ FramedCamera frame_box(const Box& bounds, const Vec3& toward_viewer, double pixe
   const auto pixels = [&](double half) {
     const double count = std::ceil(2.0 * half / pixel_size) + 2.0 * margin + 1.0;
     if (count > 1e6) {
-      throw InvalidArgument("frame_box: pixel_size " + std::to_string(pixel_size) +
-                            " needs an image of more than a million pixels across");
+      throw InvalidArgument(
+          "frame_box: pixel_size is so small that an image of more than a million "
+          "pixels across would be needed");
     }
     return static_cast<int>(count);
   };

@@ -51,6 +51,11 @@ TEST_CASE("the help of a command names its options", "[apps]") {
   }
 }
 
+TEST_CASE("a refused command line says whose help to ask for", "[apps]") {
+  CHECK_THAT(run({"jump"}).err, Contains("See rangezip --help"));
+  CHECK_THAT(run({"mesh", "--jump"}).err, Contains("See rangezip mesh --help"));
+}
+
 TEST_CASE("a wrong command line is refused with exit code 1 and the reason", "[apps]") {
   const TemporaryFolder folder;
   const std::string cloud = folder.store("cloud.xyz", "0 0 0\n1 0 0\n0 1 0\n").string();
