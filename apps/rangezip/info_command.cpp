@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "apps/rangezip/commands.h"
+#include "core/io/file_bytes.h"
 #include "core/io/input_with_mesh.h"
 #include "core/io/session_file.h"
 #include "core/mesh/mesh_report.h"
@@ -117,7 +118,7 @@ void print_info(const InfoOptions& options, const Context& context) {
   Progress progress;
   progress.stop = context.stop;
   for (const std::filesystem::path& path : options.files) {
-    if (path.extension() == ".json") {
+    if (file_type(path) == "json") {
       print_session(console, path);
     } else {
       print_mesh_or_cloud(console, path, options.check, progress);

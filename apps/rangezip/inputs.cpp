@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "apps/rangezip/exit_code.h"
+#include "apps/rangezip/outputs.h"
 #include "core/io/file_hash.h"
 
 namespace rangezip::app {
@@ -34,7 +35,9 @@ SceneInput read_inputs(const std::vector<fs::path>& paths, Console& console) {
   return input;
 }
 
-void require_rereadable(const std::vector<fs::path>& paths) {
+void require_rereadable(const std::vector<fs::path>& paths,
+                        const std::optional<fs::path>& session) {
+  if (session) write_output([&] { check_session_paths(*session, paths); });
   for (const fs::path& path : paths) {
     std::error_code error;
     if (!fs::is_other(path, error)) continue;

@@ -15,9 +15,12 @@ namespace rangezip::app {
 [[nodiscard]] SceneInput read_inputs(const std::vector<std::filesystem::path>& paths,
                                      Console& console);
 
-/// For a run that is to be replayed. @throws UsageError if one of the `paths` is a pipe or device,
-/// whose content cannot be read again.
-void require_rereadable(const std::vector<std::filesystem::path>& paths);
+/// For a run that is to be replayed, from the session file if there is to be one.
+/// @throws UsageError if one of the `paths` is a pipe or device, whose content cannot be read
+/// again;
+///     OutputError if the session cannot name it.
+void require_rereadable(const std::vector<std::filesystem::path>& paths,
+                        const std::optional<std::filesystem::path>& session);
 
 /// "362,272 points, 69,451 triangles", without what there is none of.
 [[nodiscard]] std::string amount_text(const Scene& scene);

@@ -113,7 +113,7 @@ void mesh(const MeshOptions& options, const Context& context) {
   const Outputs outputs = outputs_of(options);
   const bool is_replayed = options.session || options.verify;
   if (is_replayed) {
-    require_rereadable(options.inputs);
+    require_rereadable(options.inputs, options.session);
     outputs.refuse_overwriting(options.inputs);
   }
   const auto referee = options.verify ? std::optional(find_referee()) : std::nullopt;
@@ -123,7 +123,7 @@ void mesh(const MeshOptions& options, const Context& context) {
   MeshRunReport run{.rasterizer = rasterizer->info()};
   SceneInput input = read_inputs(options.inputs, console);
   if (is_replayed) {
-    require_rereadable(files_of(input));
+    require_rereadable(files_of(input), options.session);
     outputs.refuse_overwriting(files_of(input));
   }
   run.stages.push_back(total.stage("read"));

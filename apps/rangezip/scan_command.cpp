@@ -52,7 +52,7 @@ Outputs outputs_of(const ScanOptions& options) {
     outputs.add("--session", *options.session, {"json"});
     std::vector<std::filesystem::path> needed = options.inputs;
     if (options.into) needed.push_back(*options.into);
-    require_rereadable(needed);
+    require_rereadable(needed, options.session);
     outputs.refuse_overwriting(needed);
   }
   return outputs;
@@ -103,7 +103,7 @@ void scan(const ScanOptions& options, const Context& context) {
   Console console(options.common.quiet, context.stop);
   const SceneInput input = read_inputs(options.inputs, console);
   if (options.session) {
-    require_rereadable(files_of(input));
+    require_rereadable(files_of(input), options.session);
     outputs.refuse_overwriting(files_of(input));
   }
   TriangleMesh initial;

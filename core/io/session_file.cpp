@@ -3,6 +3,7 @@
 #include <charconv>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "core/base/error.h"
@@ -195,6 +196,17 @@ void check_input(const SessionInput& input, const Progress& progress) {
 }
 
 }  // namespace
+
+void check_session_paths(const fs::path& path, std::span<const fs::path> inputs) {
+  for (const fs::path& input : inputs) {
+    try {
+      std::ignore = json_of_input({.path = input, .hash = {}}, folder_of(path)).dump();
+    } catch (const Json::exception&) {
+      throw IoError(path.string() + ": cannot name " + input.string() +
+                    ": a session has only paths that are UTF-8");
+    }
+  }
+}
 
 void write_session(const fs::path& path, const SessionFile& session) {
   const fs::path folder = folder_of(path);

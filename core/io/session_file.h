@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,11 @@ struct SessionFile {
 };
 
 inline constexpr int kSessionFileVersion = 1;
+
+/// Can write_session() name these files in `path`? For a refusal before any work.
+/// @throws IoError that names the first of the `inputs` whose path is not UTF-8, as JSON must be.
+void check_session_paths(const std::filesystem::path& path,
+                         std::span<const std::filesystem::path> inputs);
 
 /// Writes JSON after docs/session-schema.json. Every number is written with the digits that give
 /// back the same double. Written beside the target and renamed, so a failure leaves no partial

@@ -134,3 +134,22 @@ TEST_CASE("info tells what is in a session", "[apps]") {
   CHECK_THAT(result.out, Contains("session, version 1") && Contains("sphere.ply") &&
                              Contains("1 x erase") && Contains("2 x smooth"));
 }
+
+TEST_CASE("an input that a session cannot name is refused before the work", "[apps]") {
+  const TemporaryFolder folder;
+  store_sphere(folder / "caf\xe9.ply", 1000);
+  const RunResult result = run(
+      {"mesh", folder / "caf\xe9.ply", "-o", folder / "out.ply", "--session", folder / "s.json"});
+  CHECK(result.code == 3);
+  CHECK_THAT(result.err, Contains("caf\xe9.ply") && Contains("UTF-8"));
+  CHECK(folder.count() == 1);
+  CHECK(run({"mesh", folder / "caf\xe9.ply", "-o", folder / "out.ply"}).code == 0);
+}
+
+TEST_CASE("info knows a session by its name in capital letters, too", "[apps]") {
+  const TemporaryFolder folder;
+  const std::string session = R"({"version": 1, "inputs": [], "commands": []})";
+  const RunResult result = run({"info", folder.store("S.JSON", session)});
+  CHECK(result.code == 0);
+  CHECK_THAT(result.out, Contains("session, version 1"));
+}
