@@ -187,7 +187,7 @@ class Front {
 
   void enter(std::uint32_t f) {
     const Triangle& t = mesh_.triangles[f];
-    const Vec3 area = area_of(t);
+    const Vec3 area = area_vector(at(t[0]), at(t[1]), at(t[2]));
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = t[k], b = t[(k + 1) % 3];
       edges_.insert(a, b, f);
@@ -206,22 +206,7 @@ class Front {
   /// Whether a face beyond edge (a, b) to v repeats no directed edge, and v is not inside.
   [[nodiscard]] bool may_take(std::uint32_t a, std::uint32_t b, std::uint32_t v) const {
     return (is_free(v) || open_edges_[v] > 0) && edges_.find(a, v) == kNone &&
-           edges_.find(v, b) == kNone && !folds_back(a, b, v) &&
-           (topology_ == Topology::changes || is_on_loop(a, b, v));
-  }
-
-  /// Whether a face beyond edge (a, b) to v closes another border edge over which it folds back: at
-  /// the edge of a blade the front would turn into the solid, and go on inside out.
-  [[nodiscard]] bool folds_back(std::uint32_t a, std::uint32_t b, std::uint32_t v) const {
-    const auto folds_at = [&](std::uint32_t from, std::uint32_t to) {
-      const std::uint32_t f = edges_.find(from, to);
-      return f != kNone && cosine(area_of(mesh_.triangles[f]), area_of({b, a, v})) < kMinTurn;
-    };
-    return folds_at(v, a) || folds_at(b, v);
-  }
-
-  [[nodiscard]] Vec3 area_of(const Triangle& t) const {
-    return area_vector(at(t[0]), at(t[1]), at(t[2]));
+           edges_.find(v, b) == kNone && (topology_ == Topology::changes || is_on_loop(a, b, v));
   }
 
   [[nodiscard]] bool looks_back(const Triangle& face) const {
@@ -289,7 +274,7 @@ class Front {
     if (!(twice_area > 0.0) || sine_of_smallest_angle(pa, pb, p) < kNeedle) return std::nullopt;
     const double length = glm::length(pb - pa);
     const double radius = length * glm::length(p - pa) * glm::length(p - pb) / (2.0 * twice_area);
-    const Vec3 before = area_of(face);
+    const Vec3 before = area_vector(at(face[0]), at(face[1]), at(face[2]));
     const double turn = cosine(before, area);
     if (turn < kMinTurn || radius > (turn < kFlat ? kBentShare : 1.0) * max_radius_)
       return std::nullopt;

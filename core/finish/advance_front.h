@@ -24,8 +24,9 @@ struct AdvanceFrontOptions {
 /// flattest comes first. So fronts that meet are joined, and what is left open has no points.
 ///
 /// No circle has a radius over 0.9 h, so no face leads over a gap of 2 h; with a bend of over 45
-/// degrees it has seven ninths of that at most. Sharper bends than 95 degrees are not made, nor
-/// faces that look away from those around a vertex that they join, by over 107 degrees: around a
+/// degrees it has seven ninths of that at most. Faces go on over no sharper bend than 95 degrees,
+/// though one that closes other edges may fold over these, as over the edge of a blade; nor do any
+/// come that look away from those around a vertex that they join, by over 107 degrees: around a
 /// rim they look aside. A face that would cross another gives way to the next best.
 ///
 /// The mesh stays oriented, and its faces stay; the new ones come last. A vertex where fronts have

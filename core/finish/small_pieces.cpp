@@ -27,6 +27,7 @@ constexpr double kBulges = 0.02;
 
 /// What stands apart by so many h, and has so many faces, as a ball of 2.5 h does, is a body.
 constexpr double kApart = 3.0;
+constexpr double kApartIfClosed = 1.25;  ///< what is nearer has come off the large one
 constexpr std::size_t kLeastBody = 40;
 
 /// Whether a component is a sheet that is seen as a whole from one side.
@@ -121,13 +122,14 @@ std::vector<std::uint8_t> small_bodies(const TriangleMesh& mesh,
     any = any || is_body[k] != 0;
   }
   if (!any) return is_body;
-  std::vector<std::uint8_t> is_apart = is_body;
+  std::vector<std::uint8_t> is_apart = is_body, is_beside = is_body;
   keep_apart(mesh, component, is_large, kApart * options.pixel_size, is_apart);
+  keep_apart(mesh, component, is_large, kApartIfClosed * options.pixel_size, is_beside);
   const std::vector<Extents> extents = extents_of(mesh, component, sizes.size());
   for (std::size_t k = 0; k < sizes.size(); ++k) {
-    if (is_body[k] == 0) continue;
-    is_body[k] =
-        is_apart[k] != 0 || (sizes[k] >= options.min_faces && extents[k].are_of_body()) ? 1 : 0;
+    const bool is_closed =
+        is_beside[k] != 0 && sizes[k] >= options.min_faces && extents[k].are_of_body();
+    is_body[k] = is_apart[k] != 0 || is_closed ? 1 : 0;
   }
   return is_body;
 }

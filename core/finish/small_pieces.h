@@ -25,8 +25,9 @@ struct SmallPieceOptions {
 /// at least half its area (it is flatter than half a sphere): beside it they are things of their
 /// own, such as roofs over a ground, and stay. A component of 40 faces that stands apart, by 3 h
 /// from all with `min_faces` and a twentieth of the largest one's faces, is a small body or one
-/// side of it, and stays, and so does one with `min_faces` that is nearly closed around its inside,
-/// wherever it is. So does the largest one (the earliest of equals). Positions stay. Cost: linear.
+/// side of it, and stays; and so does one with `min_faces`, 1.25 h apart, that is nearly closed
+/// around its inside. So does the largest one (the earliest of equals). Positions stay. Cost:
+/// linear.
 /// @param table of the mesh, as it is before
 /// @param component of each face: components_of(table)
 /// @pre oriented and manifold

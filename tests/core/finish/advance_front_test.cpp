@@ -5,9 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <random>
-#include <utility>
 #include <vector>
 
 #include "core/finish/clean_topology.h"
@@ -175,51 +173,6 @@ TEST_CASE("a front makes no face of which the points around look out of the back
     CHECK(on_mesh > wall.size() / 100 * 98);
   else
     CHECK(on_mesh < wall.size() / 5);
-}
-
-/// The cosine of the sharpest bend between a face from `first` on and one beside it.
-double sharpest_bend(const TriangleMesh& mesh, std::size_t first) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> face_of;
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    const Triangle& t = mesh.triangles[f];
-    for (std::size_t k = 0; k < 3; ++k)
-      face_of[{t[k], t[(k + 1) % 3]}] = f;
-  }
-  double least = 1.0;
-  for (const auto& [edge, f] : face_of) {
-    const auto across = face_of.find({edge.second, edge.first});
-    if (f < first || across == face_of.end()) continue;
-    least = std::min(least, glm::dot(unit_normal(mesh.positions, mesh.triangles[f]),
-                                     unit_normal(mesh.positions, mesh.triangles[across->second])));
-  }
-  return least;
-}
-
-TEST_CASE("around the edge of a blade a front bends by 95 degrees at most, also where it meets",
-          "[finish]") {
-  const double degrees = GENERATE(15.0, 30.0, 45.0);
-  const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
-  CAPTURE(degrees, seed);
-  std::mt19937_64 engine(seed);
-  // Two sheets that end 5 before the edge of the blade between them, along the y axis.
-  TriangleMesh upper = shapes::square_sheet(24);
-  testing::cut_where(upper, [](const Vec3& p) { return p.x > -5.0; });
-  remove_unused_vertices(upper);
-  auto points = points_in({Vec3(-6.0, -12.0, 0.0), Vec3(0.0, 12.0, 0.0)}, 6.0, engine);
-  const auto below = points_in({Vec3(-6.0, -12.0, 0.0), Vec3(0.0, 12.0, 0.0)}, 6.0, engine);
-  const double slope = std::tan(degrees * 0.017453292519943295);
-  const auto onto_lower = [&](const Vec3& p) { return Vec3(p.x, p.y, slope * p.x); };
-  for (const Vec3& p : below)
-    points.push_back(onto_lower(p));
-  TriangleMesh mesh = upper;
-  testing::append(mesh, upper);
-  for (std::size_t v = upper.positions.size(); v < mesh.positions.size(); ++v)
-    mesh.positions[v] = onto_lower(mesh.positions[v]);
-  for (std::size_t f = upper.triangles.size(); f < mesh.triangles.size(); ++f)
-    std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
-  const std::size_t first = mesh.triangles.size();
-  REQUIRE(advance_front(mesh, points, {.pixel_size = kH}) > 100);
-  CHECK(sharpest_bend(mesh, first) >= -0.1);
 }
 
 TEST_CASE("a front does not cross what is in the way", "[finish]") {
