@@ -42,11 +42,12 @@ struct RegrowOptions {
 /// (core/finish/grow_over.h) goes over the points up to 4 h from those left out, and joins what it
 /// meets; if over 10 h^2 of faces that hang together have come inside out, by the votes, as from a
 /// scrap across the mouth of a bore down its wall, once more from the start, with no such face
-/// within 4 h of those; where points are sparse, over 0.6 h apart, and it has stopped all around a
-/// place without any, of 1 h in radius at most (1.15 h where they are over 0.9 h apart), it is
-/// closed; and where it is stuck between such points it starts again (core/finish/restart_fronts.h;
-/// up to 0.9 h). So the way there leads over the surface, not through the air, and of holes only
-/// those without points are left.
+/// within 4 h of those; the same, unless fewer points are reached that way, if no votes tell but of
+/// a body so much faces inwards (core/finish/facing_inwards.h); where points are sparse, over 0.6 h
+/// apart, and it has stopped all around a place without any, of 1 h in radius at most (1.15 h where
+/// they are over 0.9 h apart), it is closed; and where it is stuck between such points it starts
+/// again (core/finish/restart_fronts.h; up to 0.9 h). So the way there leads over the surface, not
+/// through the air, and of holes only those without points are left.
 ///
 /// Points with noise of over 0.08 h are first moved, three times, onto the plane through those
 /// within 1.3 h, and only what the mesh leaves out even then counts: layers that scans out of place
