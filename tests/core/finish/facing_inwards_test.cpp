@@ -1,20 +1,16 @@
 #include "core/finish/facing_inwards.h"
 
 #include <catch2/catch.hpp>
-#include <numeric>
 #include <random>
 #include <vector>
 
+#include "tests/core/finish/all_faces.h"
 #include "tests/core/finish/shapes.h"
 
 namespace rangezip {
 namespace {
 
-std::vector<std::uint32_t> all_faces(const TriangleMesh& mesh) {
-  std::vector<std::uint32_t> faces(mesh.triangles.size());
-  std::iota(faces.begin(), faces.end(), 0U);
-  return faces;
-}
+using testing::all_faces;
 
 void turn(Triangle& face) {
   std::swap(face[1], face[2]);

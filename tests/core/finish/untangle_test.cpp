@@ -1,21 +1,17 @@
 #include "core/finish/untangle.h"
 
 #include <catch2/catch.hpp>
-#include <numeric>
 #include <random>
 #include <vector>
 
 #include "core/mesh/self_intersection.h"
+#include "tests/core/finish/all_faces.h"
 #include "tests/core/finish/shapes.h"
 
 namespace rangezip {
 namespace {
 
-std::vector<std::uint32_t> all_faces(const TriangleMesh& mesh) {
-  std::vector<std::uint32_t> faces(mesh.triangles.size());
-  std::iota(faces.begin(), faces.end(), 0U);
-  return faces;
-}
+using testing::all_faces;
 
 TEST_CASE("untangle opens folds and leaves the rest as it is") {
   const std::uint64_t seed = GENERATE(1U, 2U, 3U);
