@@ -169,42 +169,47 @@ void close_grown(TriangleMesh& mesh, const TriangleMesh& start, const Pairs& cro
 
 /// Points that a mesh leaves out, and its loops.
 struct Lack {
-  std::size_t points = 0;
+  std::vector<Vec3> points;
   std::size_t loops = 0;
 };
 
 Lack lack_of(const TriangleMesh& mesh, const SeenPoints& cloud, double pixel_size) {
-  return {left_out_points(cloud.points, mesh, kLeftOut * pixel_size).size(), count_loops(mesh)};
+  return {left_out_points(cloud.points, mesh, kLeftOut * pixel_size), count_loops(mesh)};
 }
 
 /// With as many loops, more points left out are worse. More loops are, since between noisy walls a
 /// front may join one to the other, but not if half of what was left out is there, and that is
 /// much, as a tail or an ear that was cleared for the front.
 bool is_worse(const Lack& lack, const Lack& before, std::size_t points) {
-  if (lack.loops == before.loops) return lack.points > before.points + kFewLeftOut;
-  const bool is_much = before.points > points / kMuchLeftOut;
-  const bool is_half_there = 2 * lack.points < before.points;
+  const std::size_t left_out = lack.points.size(), left_out_before = before.points.size();
+  if (lack.loops == before.loops) return left_out > left_out_before + kFewLeftOut;
+  const bool is_much = left_out_before > points / kMuchLeftOut;
+  const bool is_half_there = 2 * left_out < left_out_before;
   return lack.loops > before.loops && !(is_much && is_half_there);
 }
 
 /// Where a repair left something open, faces around have gone: there it grows again, unless that
 /// makes it worse.
-void grow_again(TriangleMesh& mesh, const Growth& growth, const RegrowOptions& grown,
+void grow_again(TriangleMesh& mesh, const Growth& growth, RegrowOptions grown,
                 FinishReport& report) {
   const auto& [given, cloud, points, options, progress] = growth;
+  const double h = options.pixel_size;
+  Lack lack_before = lack_of(mesh, cloud, h);
   for (int round = 1; round < kRegrowRounds; ++round) {
+    grown.left_out = &lack_before.points;
     const TriangleMesh clean = mesh;
     const FinishReport before = report;
     const std::size_t regrown = grow(mesh, growth, grown);
     const FaceChanges changes = find_face_changes(clean, mesh);
     if (changes.made.empty() && changes.gone.empty()) return;
     close_grown(mesh, clean, self_intersections(mesh, changes.made), growth, report);
-    const double h = options.pixel_size;
-    if (is_worse(lack_of(mesh, cloud, h), lack_of(clean, cloud, h), cloud.points.size())) {
+    Lack lack = lack_of(mesh, cloud, h);
+    if (is_worse(lack, lack_before, cloud.points.size())) {
       mesh = clean;
       report = before;
       return;
     }
+    lack_before = std::move(lack);
     report.regrown_faces += regrown;
   }
 }

@@ -253,7 +253,9 @@ std::size_t regrow(TriangleMesh& mesh, const SeenPoints& seen, const PointGrid& 
   const double noise = noise_of(points, grid, h);
   if (noise > kMostNoise * h) return 0;
   const double distance = std::max(kLeftOut * h, kLeftOutPerNoise * noise);
-  std::vector<Vec3> left_out = left_out_points(points, mesh, distance);
+  const bool is_known = options.left_out != nullptr && distance == kLeftOut * h;
+  std::vector<Vec3> left_out =
+      is_known ? *options.left_out : left_out_points(points, mesh, distance);
   const bool is_noisy = noise > kHardlyNoise * h;
   if (is_noisy) {
     smooth(left_out, grid, h);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "core/base/progress.h"
 #include "core/finish/point_grid.h"
@@ -26,6 +27,8 @@ struct RegrowOptions {
   /// directions see into the gap: the votes there are those of the rims.
   bool only_outwards = true;
   bool is_body = true;  ///< not a sheet: faces have an outside and an inside
+  /// left_out_points() of the mesh by kLeftOut, if they are known. Must outlive the call.
+  const std::vector<Vec3>* left_out = nullptr;
 };
 
 /// Grows a surface over places that no scan has reached: deep in slots and cavities, and where two
