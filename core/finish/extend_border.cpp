@@ -73,13 +73,15 @@ std::size_t count_border_edges(const CornerTable& table) {
 
 class Extender {
  public:
-  Extender(TriangleMesh& mesh, const PointGrid& cloud, const ExtendBorderOptions& options)
+  Extender(TriangleMesh& mesh, const PointGrid& cloud, const ExtendBorderOptions& options,
+           const Progress& progress)
       : mesh_(mesh),
         h_(options.pixel_size),
         reach_(kReach * options.pixel_size),
         smallest_angle_(options.smallest_angle),
         min_component_(options.min_component),
-        gaps_(cloud, {reach_, kNegligible * h_}) {}
+        gaps_(cloud, {reach_, kNegligible * h_}),
+        progress_(progress) {}
 
   /// @return whether anything changed
   bool round(ExtendBorderReport& report) {
@@ -117,6 +119,7 @@ class Extender {
     std::vector<BorderStep> steps;
     std::vector<std::uint8_t> is_busy(mesh_.positions.size(), 0);
     for (const BorderGap& gap : gaps) {
+      progress_.check_stop();
       BorderStep step = best_step(gap, table);
       const auto& vertices = step.vertices;
       if (vertices.empty() || std::any_of(vertices.begin(), vertices.end(),
@@ -239,7 +242,7 @@ class Extender {
       }
     }
     std::vector<std::uint8_t> fails(changes.size(), 0);
-    for (const auto& [i, j] : self_intersections(mesh_, changed)) {
+    for (const auto& [i, j] : self_intersections(mesh_, changed, {}, progress_)) {
       for (const std::uint32_t f : {i, j}) {
         if (change_of[f] != kNone) fails[change_of[f]] = 1;
       }
@@ -277,6 +280,7 @@ class Extender {
   std::map<EdgeKey, Failures> failures_;
   std::map<std::array<double, 3>, int> cuts_;  // so far, for a point
   std::set<Triangle> cut_;                     // corners rising
+  const Progress& progress_;
 };
 
 }  // namespace
@@ -285,7 +289,7 @@ ExtendBorderReport extend_border(TriangleMesh& mesh, const PointGrid& cloud,
                                  const ExtendBorderOptions& options, const Progress& progress) {
   ExtendBorderReport report;
   if (cloud.empty()) return report;
-  Extender extender(mesh, cloud, options);
+  Extender extender(mesh, cloud, options, progress);
   for (int round = 0; round < options.max_rounds; ++round) {
     progress.check_stop();
     if (!extender.round(report)) break;

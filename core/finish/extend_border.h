@@ -35,6 +35,7 @@ struct ExtendBorderReport {
 /// Cost: some linear passes over the mesh a round; rounds end when nothing is left to do, or the
 /// border has three times as many edges as at first.
 /// @param cloud without points nothing happens
+/// @throws Cancelled if `progress` says so.
 /// @pre oriented, manifold (core/finish/clean_topology.h)
 ExtendBorderReport extend_border(TriangleMesh& mesh, const PointGrid& cloud,
                                  const ExtendBorderOptions& options, const Progress& progress = {});

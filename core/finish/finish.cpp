@@ -147,9 +147,9 @@ struct Growth {
 };
 
 /// The pairs of faces that cross.
-Pairs crossings_of(const TriangleMesh& mesh, const TriangleMesh* clean) {
-  if (clean == nullptr) return self_intersections(mesh);
-  return self_intersections(mesh, find_face_changes(*clean, mesh).made);
+Pairs crossings_of(const TriangleMesh& mesh, const TriangleMesh* clean, const Progress& progress) {
+  if (clean == nullptr) return self_intersections(mesh, progress);
+  return self_intersections(mesh, find_face_changes(*clean, mesh).made, {}, progress);
 }
 
 /// Grows over what no scan has reached.
@@ -164,7 +164,7 @@ void close_grown(TriangleMesh& mesh, const TriangleMesh& start, const Pairs& cro
                  const Growth& growth, FinishReport& report) {
   const auto& [given, cloud, points, options, progress] = growth;
   repair(mesh, crossing, {}, points, options, report, progress);
-  if (options.open_sheet) take_back_losses(mesh, start, &points, options.pixel_size);
+  if (options.open_sheet) take_back_losses(mesh, start, &points, options.pixel_size, progress);
 }
 
 /// Points that a mesh leaves out, and its loops.
@@ -202,7 +202,7 @@ void grow_again(TriangleMesh& mesh, const Growth& growth, RegrowOptions grown,
     const std::size_t regrown = grow(mesh, growth, grown);
     const FaceChanges changes = find_face_changes(clean, mesh);
     if (changes.made.empty() && changes.gone.empty()) return;
-    close_grown(mesh, clean, self_intersections(mesh, changes.made), growth, report);
+    close_grown(mesh, clean, self_intersections(mesh, changes.made, {}, progress), growth, report);
     Lack lack = lack_of(mesh, cloud, h);
     if (is_worse(lack, lack_before, cloud.points.size())) {
       mesh = clean;
@@ -225,7 +225,7 @@ void grow_and_close(TriangleMesh& mesh, const Growth& growth, double in_the_way,
                             .is_body = !options.open_sheet};
   const TriangleMesh start = options.open_sheet ? mesh : TriangleMesh{};
   report.regrown_faces += grow(mesh, growth, grown);
-  close_grown(mesh, start, crossings_of(mesh, growth.clean), growth, report);
+  close_grown(mesh, start, crossings_of(mesh, growth.clean, growth.progress), growth, report);
   if (options.regrow) grow_again(mesh, growth, grown, report);
 }
 
@@ -263,12 +263,13 @@ void remove_thin_handles(TriangleMesh& mesh, const PointGrid& cloud, const Finis
   for (int round = 0; round < kHandleRounds; ++round) {
     progress.check_stop();
     const SettledLoops settled = options.open_sheet ? SettledLoops(mesh) : SettledLoops();
-    const std::size_t cut = cut_thin_handles(mesh, thin);
+    const std::size_t cut = cut_thin_handles(mesh, thin, progress);
     if (cut == 0) return;
     report.cut_handles += cut;
     const TriangleMesh open = mesh;
     repair(mesh, {}, settled, cloud, options, report, progress);
-    if (!options.narrow_gaps && !options.open_sheet) take_back_losses(mesh, open, nullptr, h);
+    if (!options.narrow_gaps && !options.open_sheet)
+      take_back_losses(mesh, open, nullptr, h, progress);
   }
 }
 
@@ -312,7 +313,8 @@ std::vector<std::uint32_t> coarsen_cleanly(TriangleMesh& mesh, CoarsenOptions op
   options.is_kept.assign(fine.positions.size(), 0);
   for (int round = 0;; ++round) {
     const std::size_t collapsed = coarsen(mesh, options, progress);
-    const Pairs crossing = self_intersections(mesh, find_face_changes(fine, mesh).made);
+    const Pairs crossing =
+        self_intersections(mesh, find_face_changes(fine, mesh).made, {}, progress);
     if (crossing.empty() || round == kCoarsenRounds) {
       report.collapsed_edges += collapsed;
       return faces_of_pairs(crossing);
@@ -328,7 +330,7 @@ std::vector<std::uint32_t> fit_cleanly(TriangleMesh& mesh, std::vector<Vec3> poi
                                        const Progress& progress) {
   const std::vector<Vec3> positions = mesh.positions;
   fit_faces(mesh, std::move(points), options, progress);
-  const UntangleReport untangled = take_back_crossing(mesh, positions);
+  const UntangleReport untangled = take_back_crossing(mesh, positions, progress);
   report.untangled_pairs += untangled.crossed;
   return faces_of_pairs(untangled.left);
 }
@@ -425,7 +427,7 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
                                 .sizes = scale.sizes,
                                 .rounds = options.relaxations},
                                report, progress);
-  report.unfolded += unfold(mesh, cloud, {h, fit.noise});
+  report.unfolded += unfold(mesh, cloud, {h, fit.noise}, progress);
   fit_vertices(mesh, surface, fit, progress);
   separate(mesh, all_faces(mesh), cloud, options, report, progress);
   progress.at("finish", kSharpenShare);
@@ -435,15 +437,16 @@ void improve(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& op
   }
   mend_slivers(mesh, cloud, options, report, progress);
   extend(mesh, cloud, 0.0, options, report, progress);
-  report.unfolded += unfold(mesh, cloud, {h, fit.noise});
+  report.unfolded += unfold(mesh, cloud, {h, fit.noise}, progress);
   progress.at("finish", kFitShare);
   if (mesh.empty()) return;  // all of it was a scrap
   if (is_coarsened) {
     coarsen_to_cloud(mesh, cloud, options, report, progress);
   } else {
-    if (relax_border(mesh, surface, fit)) extend(mesh, cloud, 0.0, options, report, progress);
+    if (relax_border(mesh, surface, fit, progress))
+      extend(mesh, cloud, 0.0, options, report, progress);
     fit_to_points(mesh, cloud, options, report, progress);
-    report.small_angles = mend_small_angles(mesh, cloud, h).left;
+    report.small_angles = mend_small_angles(mesh, cloud, h, progress).left;
     extend(mesh, cloud, kSmallAngle, options, report, progress);  // to what mending left beyond
   }
 }
@@ -464,9 +467,12 @@ FinishResult finish(TriangleMesh mesh, const SeenPoints& cloud, const FinishOpti
   PointGrid points(cloud.points, region_of(mesh, kRegionMargin * h), kPointCell * h);
   clean_topology(mesh);
   result.report.turned_pieces = orient_pieces(mesh, h);
+  progress.check_stop();
   if (result.report.turned_pieces > 0) close_joints(mesh, points, options, result.report, progress);
   if (!cloud.votes.empty()) result.report.papered_faces += drop_faces_in_air(mesh, points, h);
+  progress.check_stop();
   result.report.papered_faces += drop_papered_faces(mesh, points, cloud, h);
+  progress.check_stop();
   if (!cloud.votes.empty())
     result.report.papered_faces += drop_air_bridges(mesh, points, h, options.min_component);
   progress.at("finish", kGrowShare);
@@ -475,8 +481,8 @@ FinishResult finish(TriangleMesh mesh, const SeenPoints& cloud, const FinishOpti
   given.reset();
   progress.at("finish", kHandlesShare);
   remove_thin_handles(mesh, points, options, result.report, progress);
-  take_back_vanished(mesh, before, points, h);
-  zip_open_loops(mesh, points, options, result.report);
+  take_back_vanished(mesh, before, points, h, progress);
+  zip_open_loops(mesh, points, options, result.report, progress);
   if (options.max_hole_perimeter == 0.0)
     result.report.papered_faces += drop_papered_faces(mesh, points, cloud, h, kSmallPerimeter * h);
   progress.at("finish", kImproveShare);

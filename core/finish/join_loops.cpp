@@ -117,14 +117,15 @@ std::vector<Edge> inner_edges(const std::vector<Triangle>& triangles) {
 class Joiner {
  public:
   Joiner(const TriangleMesh& mesh, const MeshPieces& pieces, const PointGrid& cloud,
-         double pixel_size, bool has_narrow_gaps)
+         double pixel_size, bool has_narrow_gaps, const Progress& progress)
       : mesh_(mesh),
         cloud_(cloud),
         h_(pixel_size),
         support_(has_narrow_gaps ? kSupportBesideGaps : kSupport),
         table_(pieces.table),
         loops_(pieces.loops),
-        component_(pieces.component) {}
+        component_(pieces.component),
+        progress_(progress) {}
 
   /// The strips that are surface of the object, the narrowest first; some may share a loop.
   [[nodiscard]] std::vector<Strip> strips() const {
@@ -137,6 +138,7 @@ class Joiner {
     const std::vector<std::span<const LoopNeighbors>> pairs = loops_side_by_side(neighbors, loops_);
     std::vector<std::optional<Strip>> made(pairs.size());
     parallel_for(pairs.size(), 1, [&](std::size_t begin, std::size_t end) {
+      progress_.check_stop();
       for (std::size_t i = begin; i < end; ++i)
         made[i] = strip_between(pairs[i]);
     });
@@ -163,6 +165,7 @@ class Joiner {
     const std::vector<std::uint8_t> is_covered = covered_points(middles, mesh_, kCovered * h_);
     std::vector<std::uint8_t> is_kept(strips.size(), 0);
     parallel_for(strips.size(), 1, [&](std::size_t begin, std::size_t end) {
+      progress_.check_stop();
       for (std::size_t i = begin; i < end; ++i) {
         const auto covered = std::span(is_covered).subspan(first[i], strips[i].middles.size());
         is_kept[i] = is_surface(strips[i], covered) ? 1 : 0;
@@ -310,6 +313,7 @@ class Joiner {
   const CornerTable& table_;
   const std::vector<BoundaryLoop>& loops_;
   const std::vector<std::uint32_t>& component_;
+  const Progress& progress_;
 };
 
 void mark(const Strip& strip, std::vector<std::uint8_t>& vertices) {
@@ -342,8 +346,9 @@ std::vector<Strip> take_one_for_each_loop(std::vector<Strip>& strips,
 
 /// Appends of strips what crosses nothing, where that is most of a strip: what is left open is
 /// filled as other holes are. Names the loops of others.
-void append_parts(TriangleMesh& mesh, const std::vector<Strip>& strips, JoinedLoops& joined) {
-  const std::vector<HoleFill> parts = without_crossing_faces(mesh, fills_of(strips));
+void append_parts(TriangleMesh& mesh, const std::vector<Strip>& strips, JoinedLoops& joined,
+                  const Progress& progress) {
+  const std::vector<HoleFill> parts = without_crossing_faces(mesh, fills_of(strips), progress);
   const std::size_t before = mesh.triangles.size();
   for (std::size_t i = 0; i < strips.size(); ++i) {
     const auto whole = static_cast<double>(strips[i].fill.triangles.size());
@@ -360,15 +365,16 @@ void append_parts(TriangleMesh& mesh, const std::vector<Strip>& strips, JoinedLo
 }  // namespace
 
 JoinedLoops join_loops(TriangleMesh& mesh, const MeshPieces& pieces, const PointGrid& cloud,
-                       double pixel_size, bool has_narrow_gaps) {
+                       double pixel_size, bool has_narrow_gaps, const Progress& progress) {
   JoinedLoops result{.is_hindered = std::vector<std::uint8_t>(mesh.positions.size(), 0)};
   std::vector<std::uint8_t> is_joined(pieces.loops.size(), 0);
-  std::vector<Strip> strips = Joiner(mesh, pieces, cloud, pixel_size, has_narrow_gaps).strips();
+  std::vector<Strip> strips =
+      Joiner(mesh, pieces, cloud, pixel_size, has_narrow_gaps, progress).strips();
   std::vector<Strip> hindered;
   for (int attempt = 0; attempt < kAttempts && !strips.empty(); ++attempt) {
     std::vector<Strip> others = take_one_for_each_loop(strips, is_joined);
     std::vector<std::uint8_t> fails(strips.size(), 0);
-    for (const std::size_t i : append_verified(mesh, fills_of(strips)))
+    for (const std::size_t i : append_verified(mesh, fills_of(strips), progress))
       fails[i] = 1;
     for (std::size_t i = 0; i < strips.size(); ++i) {
       if (fails[i] != 0) {
@@ -382,7 +388,7 @@ JoinedLoops join_loops(TriangleMesh& mesh, const MeshPieces& pieces, const Point
   }
   std::erase_if(hindered, [](const Strip& strip) { return !strip.is_sure; });
   take_one_for_each_loop(hindered, is_joined);
-  append_parts(mesh, hindered, result);
+  append_parts(mesh, hindered, result, progress);
   return result;
 }
 

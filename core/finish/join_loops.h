@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/finish/mesh_pieces.h"
 #include "core/finish/point_grid.h"
 #include "core/mesh/triangle_mesh.h"
@@ -47,8 +48,10 @@ struct JoinedLoops {
 /// @param pixel_size h, model units; positive
 /// @param has_narrow_gaps the cloud shows gaps that scans reach only in part: where it is sparse a
 ///     point counts within a spacing, not within 1.3, which may be half of such a gap
+/// @throws Cancelled if `progress` says so.
 /// @pre oriented, manifold, no self-intersections
 JoinedLoops join_loops(TriangleMesh& mesh, const MeshPieces& pieces, const PointGrid& cloud,
-                       double pixel_size, bool has_narrow_gaps = false);
+                       double pixel_size, bool has_narrow_gaps = false,
+                       const Progress& progress = {});
 
 }  // namespace rangezip

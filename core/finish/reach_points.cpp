@@ -71,11 +71,12 @@ class Reacher {
  public:
   /// @param points that the mesh is to reach, and those around
   Reacher(TriangleMesh& mesh, std::vector<Vec3> points, const PointGrid& cloud, double too_short,
-          const ReachPointsOptions& options)
+          const ReachPointsOptions& options, const Progress& progress)
       : positions_(mesh.positions),
         mesh_(mesh),
         cloud_(cloud),
         options_(options),
+        progress_(progress),
         short_(too_short),
         table_(mesh.triangles, mesh.positions.size()),
         on_(mesh, table_, std::move(points), kReach * options.pixel_size),
@@ -89,6 +90,7 @@ class Reacher {
   };
 
   Moves round() {
+    progress_.check_stop();
     const TriangleMesh before = geometry_of(mesh_);
     std::vector<std::uint8_t> is_busy(positions_.size(), 0);
     std::vector<std::uint32_t> moved;
@@ -121,6 +123,7 @@ class Reacher {
   /// costs little of what they gained.
   void lower_spikes() {
     for (int round = 0; round < kLowerings; ++round) {
+      progress_.check_stop();
       const std::vector<std::uint32_t> spikes = find_spikes();
       if (spikes.empty()) return;
       const TriangleMesh before = geometry_of(mesh_);
@@ -355,7 +358,7 @@ class Reacher {
       std::vector<std::uint32_t> changed;
       for (const std::uint32_t v : moved)
         table_.for_each_corner(v, [&](std::uint32_t c) { changed.push_back(c / 3); });
-      const auto crossing = self_intersections(mesh_, changed);
+      const auto crossing = self_intersections(mesh_, changed, {}, progress_);
       if (crossing.empty()) return;
       std::vector<std::uint8_t> crosses(positions_.size(), 0);
       for (const auto& [i, j] : crossing) {
@@ -420,6 +423,7 @@ class Reacher {
   TriangleMesh& mesh_;
   const PointGrid& cloud_;
   const ReachPointsOptions& options_;
+  const Progress& progress_;
   double short_;
   CornerTable table_;
   PointsOnFaces on_;
@@ -442,10 +446,9 @@ std::size_t reach_points(TriangleMesh& mesh, const PointGrid& cloud,
   FacePart part = part_near(mesh, grid_of(missed, kHalf * kPart * h), kPart * h);
   if (part.mesh.empty()) return 0;
   Reacher reacher(part.mesh, points_near(cloud, grid_of(missed, kHalf * kAround * h), kAround * h),
-                  cloud, too_short, options);
+                  cloud, too_short, options, progress);
   std::size_t moves = 0;
   for (int round = 0; round < kRounds; ++round) {
-    progress.check_stop();
     const auto [tried, moved] = reacher.round();
     if (tried == 0) break;
     moves += moved;

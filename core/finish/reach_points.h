@@ -29,6 +29,7 @@ struct ReachPointsOptions {
 /// topology and the boundary stay. Cost: the points within 2 h of those to be
 /// reached, and the faces within 8 h; in up to ten rounds again those near what has moved.
 /// @return moves that were made
+/// @throws Cancelled if `progress` says so.
 /// @pre oriented, manifold (core/finish/clean_topology.h); nothing crosses
 std::size_t reach_points(TriangleMesh& mesh, const PointGrid& cloud,
                          const ReachPointsOptions& options, const Progress& progress = {});

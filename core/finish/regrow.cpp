@@ -177,6 +177,7 @@ class OutwardGrowth {
   /// @return faces that came
   std::size_t run(bool is_body) {
     const std::size_t count = grow_over(part_.mesh, near_, options_, progress_);
+    progress_.check_stop();
     const std::vector<std::uint32_t> grown = last_faces(part_.mesh, grown_count());
     const double h = options_.pixel_size;
     const WrongPlaces by_votes =
@@ -262,6 +263,7 @@ std::size_t regrow(TriangleMesh& mesh, const SeenPoints& seen, const PointGrid& 
     left_out = points_off(left_out, mesh, distance);
   }
   if (left_out.size() < kFewLeftOut) return 0;
+  progress.check_stop();
   const PointGrid places(left_out, region_of(mesh, h), 0.5 * kPlace * h);
   std::vector<Vec3> near = points_near(points, places, kPlace * h);
   if (is_noisy) smooth(near, grid, h);
@@ -270,6 +272,7 @@ std::size_t regrow(TriangleMesh& mesh, const SeenPoints& seen, const PointGrid& 
   clear_way(mesh, points_off(near, mesh, off_mesh), places, grid, options);
   drop_shreds(mesh, seen.votes.empty() ? kMinPiece : kMinPieceOfBodies);
   FacePart part = part_near(mesh, places, kPart * h);
+  progress.check_stop();
   if (part.mesh.empty()) return 0;  // they are of another body, inside of this one
   GrowOverOptions grow{.pixel_size = h, .off_mesh = off_mesh};
   const double spacing = spacing_of(left_out, grid, h);

@@ -63,15 +63,18 @@ void relax(TriangleMesh& mesh, const std::vector<std::uint8_t>& is_border,
 
 }  // namespace
 
-bool relax_border(TriangleMesh& mesh, const PointGrid& surface, const FitWindow& fit) {
+bool relax_border(TriangleMesh& mesh, const PointGrid& surface, const FitWindow& fit,
+                  const Progress& progress) {
   const std::vector<std::uint8_t> is_border =
       border_of(CornerTable(mesh.triangles, mesh.positions.size()));
   if (std::find(is_border.begin(), is_border.end(), kCorner) == is_border.end()) return false;
   const TriangleMesh before{mesh.positions, mesh.triangles, {}};
   std::vector<std::uint8_t> stays(mesh.positions.size(), 0);
   for (int round = 0; round < kRounds; ++round) {
+    progress.check_stop();
     relax(mesh, is_border, stays, surface, fit);
-    const auto crossing = self_intersections(mesh, find_face_changes(before, mesh).made);
+    const auto crossing =
+        self_intersections(mesh, find_face_changes(before, mesh).made, {}, progress);
     if (crossing.empty()) return true;
     for (const auto& [i, j] : crossing) {
       for (const std::uint32_t f : {i, j}) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/progress.h"
 #include "core/finish/fit_window.h"
 #include "core/finish/point_grid.h"
 #include "core/mesh/triangle_mesh.h"
@@ -16,7 +17,9 @@ namespace rangezip {
 /// to the cloud for the vertices along the border.
 /// @param surface to fit to: the cloud, or PointGrid::thinned() where the window is wide
 /// @return whether anything may have changed; false of a mesh without border
+/// @throws Cancelled if `progress` says so.
 /// @pre oriented, manifold (core/finish/clean_topology.h)
-bool relax_border(TriangleMesh& mesh, const PointGrid& surface, const FitWindow& fit);
+bool relax_border(TriangleMesh& mesh, const PointGrid& surface, const FitWindow& fit,
+                  const Progress& progress = {});
 
 }  // namespace rangezip

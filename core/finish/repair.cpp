@@ -150,11 +150,12 @@ std::vector<double> areas_of_components(const TriangleMesh& mesh,
 /// @param pieces of the mesh, with or without these loops
 ChosenFills choose_fills(const TriangleMesh& mesh, const MeshPieces& pieces,
                          std::vector<BoundaryLoop> loops, bool is_zipped, const PointGrid& cloud,
-                         const HoleChoiceOptions& choice) {
+                         const HoleChoiceOptions& choice, const Progress& progress) {
   const std::vector<double> areas = areas_of_components(mesh, pieces.component);
   const FaceTree faces(mesh.positions, pieces.table);
   std::vector<std::optional<FillChoice>> choices(loops.size());
   parallel_for(loops.size(), 1, [&](std::size_t begin, std::size_t end) {
+    progress.check_stop();
     for (std::size_t i = begin; i < end; ++i)
       choices[i] =
           choose_fill(mesh.positions, pieces.table, loops[i], faces,
@@ -182,19 +183,20 @@ void widen(TriangleMesh& mesh, const std::vector<std::uint8_t>& vertices) {
 class Repairer {
  public:
   Repairer(TriangleMesh& mesh, const SettledLoops& settled, const PointGrid& cloud,
-           const FinishOptions& options, FinishReport& report)
+           const FinishOptions& options, FinishReport& report, const Progress& progress)
       : mesh_(mesh),
         settled_(settled),
         cloud_(cloud),
         options_(options),
         choice_(choice_options(cloud, options, memo_)),
         fill_options_(fill_options(cloud, choice_)),
-        report_(report) {}
+        report_(report),
+        progress_(progress) {}
 
   /// What repair() does once nothing crosses.
-  void close_in_rounds(const Progress& progress) {
+  void close_in_rounds() {
     for (int round = 0; round < options_.rounds; ++round) {
-      progress.check_stop();
+      progress_.check_stop();
       clean_topology(mesh_);
       MeshPieces pieces = look_at_pieces();
       bridge(pieces, bridge_loops);
@@ -213,11 +215,11 @@ class Repairer {
   }
 
   /// The same; what is cleared around loops that stay open after all comes back.
-  void close_without_losses(const Progress& progress) {
+  void close_without_losses() {
     clean_topology(mesh_);
     const TriangleMesh before = mesh_;
-    close_in_rounds(progress);
-    if (take_back_losses(mesh_, before, &cloud_, options_.pixel_size) == 0) return;
+    close_in_rounds();
+    if (take_back_losses(mesh_, before, &cloud_, options_.pixel_size, progress_) == 0) return;
     MeshPieces pieces = look_at_pieces();
     drop_small(pieces);
   }
@@ -265,7 +267,7 @@ class Repairer {
     std::vector<std::uint32_t> added(mesh_.triangles.size() - before);
     std::iota(added.begin(), added.end(), static_cast<std::uint32_t>(before));
     std::vector<std::uint8_t> marked(mesh_.triangles.size(), 0);
-    for (const auto& [i, j] : self_intersections(mesh_, added)) {
+    for (const auto& [i, j] : self_intersections(mesh_, added, {}, progress_)) {
       const std::size_t first = before + (j - before) / 2 * 2;  // a bridge has two faces
       if (marked[first] == 0) --bridges;
       marked[first] = marked[first + 1] = 1;
@@ -287,7 +289,7 @@ class Repairer {
   /// filled in this round; empty: none
   std::vector<std::uint8_t> join(MeshPieces& pieces, int round) {
     JoinedLoops joined =
-        join_loops(mesh_, pieces, cloud_, options_.pixel_size, options_.narrow_gaps);
+        join_loops(mesh_, pieces, cloud_, options_.pixel_size, options_.narrow_gaps, progress_);
     if (joined.pairs > 0) pieces = look_at_pieces();
     report_.joined_loops += joined.pairs;
     if (round >= kRoundsToJoin) return {};
@@ -300,7 +302,7 @@ class Repairer {
     std::vector<BoundaryLoop> loops = std::move(pieces.loops);
     const std::vector<BoundaryLoop> hindered = hindered_among(loops, table, is_hindered);
     const ChosenFills chosen =
-        choose_fills(mesh_, pieces, std::move(loops), round > 0, cloud_, choice_);
+        choose_fills(mesh_, pieces, std::move(loops), round > 0, cloud_, choice_, progress_);
     const VerifiedFills fills = make(chosen.requests, table);
     FillOutcome outcome;
     outcome.unfilled = unfilled_vertices(mesh_, table, chosen, fills, round < kGentleRounds);
@@ -317,7 +319,7 @@ class Repairer {
   }
 
   VerifiedFills make(const std::vector<FillRequest>& requests, const CornerTable& table) {
-    VerifiedFills fills = fill_verified(mesh_, table, requests, fill_options_);
+    VerifiedFills fills = fill_verified(mesh_, table, requests, fill_options_, progress_);
     report_.filled_holes += fills.filled_holes;
     report_.filled_faces += fills.filled_faces;
     return fills;
@@ -329,6 +331,7 @@ class Repairer {
     const std::vector<Triangle> before = mesh_.triangles;
     std::size_t faces = 0;
     for (int round = 0; round < kLastRounds; ++round) {
+      progress_.check_stop();
       MeshPieces pieces = look_at_pieces();
       const std::vector<BoundaryLoop> loops = loops_to_close(pieces);
       const EarFills fills = fill_by_ears(mesh_, pieces.table, loops, options_.pixel_size);
@@ -350,7 +353,7 @@ class Repairer {
   [[nodiscard]] std::vector<BoundaryLoop> loops_to_close(MeshPieces& pieces) const {
     std::vector<BoundaryLoop> loops;
     ChosenFills chosen =
-        choose_fills(mesh_, pieces, std::move(pieces.loops), true, cloud_, choice_);
+        choose_fills(mesh_, pieces, std::move(pieces.loops), true, cloud_, choice_, progress_);
     for (FillRequest& request : chosen.requests)
       loops.push_back(std::move(request.loop));
     return loops;
@@ -362,7 +365,8 @@ class Repairer {
     MeshPieces pieces = look_at_pieces();
     if (pieces.loops.empty()) return false;
     std::vector<FillRequest> requests =
-        choose_fills(mesh_, pieces, std::move(pieces.loops), are_zipped, cloud_, choice_).requests;
+        choose_fills(mesh_, pieces, std::move(pieces.loops), are_zipped, cloud_, choice_, progress_)
+            .requests;
     if (!are_zipped)
       std::erase_if(requests, [](const FillRequest& r) { return r.shape != FillShape::zipped; });
     const VerifiedFills fills = make(requests, pieces.table);
@@ -378,6 +382,7 @@ class Repairer {
   HoleChoiceOptions choice_;
   VerifiedFillOptions fill_options_;
   FinishReport& report_;
+  const Progress& progress_;
 };
 
 }  // namespace
@@ -387,11 +392,11 @@ void repair(TriangleMesh& mesh, const Pairs& crossing, const SettledLoops& settl
             const Progress& progress) {
   cut_pairs(mesh, crossing, report);
   // From here on nothing crosses: faces only go, and what comes is checked.
-  Repairer repairer(mesh, settled, cloud, options, report);
+  Repairer repairer(mesh, settled, cloud, options, report, progress);
   if (options.open_sheet) {
-    repairer.close_without_losses(progress);
+    repairer.close_without_losses();
   } else {
-    repairer.close_in_rounds(progress);
+    repairer.close_in_rounds();
   }
   remove_unused_vertices(mesh);
 }
@@ -399,16 +404,17 @@ void repair(TriangleMesh& mesh, const Pairs& crossing, const SettledLoops& settl
 void close_joints(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
                   FinishReport& report, const Progress& progress) {
   const SettledLoops none;
-  const SettledLoops others = Repairer(mesh, none, cloud, options, report).bridge_joints();
-  Repairer(mesh, others, cloud, options, report).close_in_rounds(progress);
+  const SettledLoops others =
+      Repairer(mesh, none, cloud, options, report, progress).bridge_joints();
+  Repairer(mesh, others, cloud, options, report, progress).close_in_rounds();
 }
 
 void zip_open_loops(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
-                    FinishReport& report) {
+                    FinishReport& report, const Progress& progress) {
   const SettledLoops none;
   const TriangleMesh before = mesh;
-  Repairer(mesh, none, cloud, options, report).zip_again();
-  if (options.open_sheet) take_back_losses(mesh, before, &cloud, options.pixel_size);
+  Repairer(mesh, none, cloud, options, report, progress).zip_again();
+  if (options.open_sheet) take_back_losses(mesh, before, &cloud, options.pixel_size, progress);
   remove_unused_vertices(mesh);
 }
 

@@ -21,6 +21,7 @@ namespace rangezip {
 /// @param crossing the pairs of faces that cross, self_intersections(mesh)
 /// @param settled border that stays: its loops are not bridged, joined or closed
 /// @param cloud evidence for holes (core/finish/hole_choice.h); may be empty
+/// @throws Cancelled if `progress` says so.
 void repair(TriangleMesh& mesh,
             const std::vector<std::pair<std::uint32_t, std::uint32_t>>& crossing,
             const SettledLoops& settled, const PointGrid& cloud, const FinishOptions& options,
@@ -28,14 +29,18 @@ void repair(TriangleMesh& mesh,
 
 /// Joins what was turned (core/finish/orient_pieces.h) to what it continues, and repairs the cracks
 /// between, as repair() does; other loops stay as they are. Before anything grows: from both sides
-/// of a crack, it would grow over the other side. @pre oriented and manifold; stays so
+/// of a crack, it would grow over the other side.
+/// @throws Cancelled if `progress` says so.
+/// @pre oriented and manifold; stays so
 void close_joints(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
                   FinishReport& report, const Progress& progress);
 
 /// Zips the loops that a repair has left open, and closes what that parts from them: what was cut
 /// away around a loop, or is left of a fill, may be cracks that lead into a hole. No face goes but
-/// those of small components: what would cross something stays open. @pre as repair() leaves a mesh
+/// those of small components: what would cross something stays open.
+/// @throws Cancelled if `progress` says so.
+/// @pre as repair() leaves a mesh
 void zip_open_loops(TriangleMesh& mesh, const PointGrid& cloud, const FinishOptions& options,
-                    FinishReport& report);
+                    FinishReport& report, const Progress& progress = {});
 
 }  // namespace rangezip

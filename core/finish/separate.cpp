@@ -17,7 +17,7 @@ std::vector<std::uint32_t> faces_of_pairs(
 
 bool separate(TriangleMesh& mesh, std::span<const std::uint32_t> changed, const PointGrid& cloud,
               const FinishOptions& options, FinishReport& report, const Progress& progress) {
-  const UntangleReport untangled = untangle(mesh, changed);
+  const UntangleReport untangled = untangle(mesh, changed, progress);
   report.untangled_pairs += untangled.crossed;
   if (untangled.left.empty()) return false;
   repair(mesh, untangled.left, SettledLoops(mesh), cloud, options, report, progress);

@@ -53,7 +53,7 @@ void snap_around(TriangleMesh& mesh, std::span<const std::uint32_t> came, const 
     put_back(std::move(part_after), after);
     if (!is_sound(after)) return;
     const std::vector<std::uint32_t> changed = find_face_changes(mesh, after).made;
-    const auto crossing = self_intersections(after, changed);
+    const auto crossing = self_intersections(after, changed, {}, progress);
     if (crossing.empty()) {
       mesh = std::move(after);
       add_changes(snapped, report);

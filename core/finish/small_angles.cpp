@@ -135,7 +135,7 @@ class Round {
   /// @param may_change per position
   /// @param hopeless of this stage
   Round(TriangleMesh& mesh, const std::vector<std::uint8_t>& may_change, const PointGrid& cloud,
-        double h, const Stage& stage, Hopeless& hopeless)
+        double h, const Stage& stage, Hopeless& hopeless, const Progress& progress)
       : mesh_(mesh),
         cloud_(cloud),
         h_(h),
@@ -146,7 +146,8 @@ class Round {
         cubes_(cubes_of(mesh, h)),
         hopeless_(hopeless),
         may_change_(may_change),
-        is_busy_(may_change.size(), 0) {}
+        is_busy_(may_change.size(), 0),
+        progress_(progress) {}
 
   /// The smallest angles first; no two mends change faces around neighbours.
   /// @return number of faces mended
@@ -155,8 +156,10 @@ class Round {
     for (const std::uint32_t f : small_faces(mesh_, under_))
       order.emplace_back(angle_of(mesh_.positions, mesh_.triangles[f]), f);
     std::sort(order.begin(), order.end());
-    for (const auto& [angle, face] : order)
+    for (const auto& [angle, face] : order) {
+      progress_.check_stop();
       mend(face);
+    }
     while (!chosen_.empty()) {
       const std::vector<std::uint8_t> fails = apply();
       if (std::find(fails.begin(), fails.end(), 1) == fails.end()) return chosen_.size();
@@ -233,7 +236,7 @@ class Round {
       }
     }
     std::vector<std::uint8_t> fails(chosen_.size(), 0);
-    for (const auto& [i, j] : self_intersections(changed, faces)) {
+    for (const auto& [i, j] : self_intersections(changed, faces, {}, progress_)) {
       for (const std::uint32_t f : {i, j}) {
         if (f >= first) fails[mend_of[f - first]] = 1;
       }
@@ -269,12 +272,13 @@ class Round {
   const std::vector<std::uint8_t>& may_change_;
   std::vector<std::uint8_t> is_busy_;  // per position: it or what is around changes in this round
   std::vector<AngleMend> chosen_;
+  const Progress& progress_;
 };
 
 /// @param most faces: where there are more, none is mended
 /// @return number of places where faces changed
 std::size_t mend(TriangleMesh& mesh, const PointGrid& cloud, double h,
-                 std::span<const Stage> stages, std::size_t most) {
+                 std::span<const Stage> stages, std::size_t most, const Progress& progress) {
   const std::vector<std::uint32_t> faces = small_faces(mesh, stages.front().under);
   if (faces.empty() || faces.size() > most) return 0;
   const std::vector<std::uint8_t> flags = vertices_around(mesh, faces);
@@ -286,7 +290,8 @@ std::size_t mend(TriangleMesh& mesh, const PointGrid& cloud, double h,
   for (const Stage& stage : stages) {
     Hopeless hopeless;
     for (int round = 0; round < kRounds; ++round) {
-      const std::size_t mended = Round(part.mesh, may_change, cloud, h, stage, hopeless).run();
+      const std::size_t mended =
+          Round(part.mesh, may_change, cloud, h, stage, hopeless, progress).run();
       if (mended == 0) break;
       count += mended;
     }
@@ -299,12 +304,13 @@ std::size_t mend(TriangleMesh& mesh, const PointGrid& cloud, double h,
 
 }  // namespace
 
-SmallAngleReport mend_small_angles(TriangleMesh& mesh, const PointGrid& cloud, double pixel_size) {
+SmallAngleReport mend_small_angles(TriangleMesh& mesh, const PointGrid& cloud, double pixel_size,
+                                   const Progress& progress) {
   SmallAngleReport report;
   const std::size_t count = mesh.triangles.size();
   const auto few = static_cast<std::size_t>(kFew * static_cast<double>(count));
-  report.mended = mend(mesh, cloud, pixel_size, kSmall, count);
-  report.mended += mend(mesh, cloud, pixel_size, kMedium, few);
+  report.mended = mend(mesh, cloud, pixel_size, kSmall, count, progress);
+  report.mended += mend(mesh, cloud, pixel_size, kMedium, few, progress);
   report.left = small_faces(mesh, kSmallAngle).size();
   return report;
 }

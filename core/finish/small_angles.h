@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "core/base/progress.h"
 #include "core/finish/point_grid.h"
 #include "core/mesh/triangle_mesh.h"
 
@@ -24,7 +25,9 @@ struct SmallAngleReport {
 /// before there are none after. Only the faces around such angles are looked at closely. Cost: some
 /// passes over the mesh; and for each such face what is around it.
 /// @param pixel_size h, model units
+/// @throws Cancelled if `progress` says so.
 /// @pre oriented, manifold (core/finish/clean_topology.h)
-SmallAngleReport mend_small_angles(TriangleMesh& mesh, const PointGrid& cloud, double pixel_size);
+SmallAngleReport mend_small_angles(TriangleMesh& mesh, const PointGrid& cloud, double pixel_size,
+                                   const Progress& progress = {});
 
 }  // namespace rangezip

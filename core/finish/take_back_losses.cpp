@@ -117,11 +117,11 @@ class Losses {
 
   /// The mesh without the changes that lose points, but for those that would cross others.
   /// @return faces that came back
-  std::size_t undo(TriangleMesh& mesh) {
+  std::size_t undo(TriangleMesh& mesh, const Progress& progress) {
     for (;;) {
       std::vector<std::uint32_t> back;
       mesh.triangles = undone(back);
-      const auto crossing = self_intersections(mesh, back);
+      const auto crossing = self_intersections(mesh, back, {}, progress);
       if (crossing.empty()) return back.size();
       for (const auto& [i, j] : crossing) {
         for (const std::uint32_t f : {i, j}) {
@@ -191,13 +191,14 @@ class Losses {
 };
 
 std::size_t take_back(TriangleMesh& mesh, const TriangleMesh& before, const PointGrid* cloud,
-                      double pixel_size, bool only_vanished) {
+                      double pixel_size, bool only_vanished, const Progress& progress) {
+  progress.check_stop();
   const TriangleMesh after = with_numbers_of(before, mesh);
   TriangleMesh undone = after;
   Losses losses(before, after);
   losses.choose_by_area(kSmallLoss * pixel_size * pixel_size, only_vanished);
   if (cloud != nullptr) losses.keep_by_points(*cloud, kLeftOut * pixel_size);
-  const std::size_t back = losses.undo(undone);
+  const std::size_t back = losses.undo(undone, progress);
   if (back == 0) return 0;
   mesh = std::move(undone);
   remove_unused_vertices(mesh);
@@ -207,13 +208,14 @@ std::size_t take_back(TriangleMesh& mesh, const TriangleMesh& before, const Poin
 }  // namespace
 
 std::size_t take_back_losses(TriangleMesh& mesh, const TriangleMesh& before, const PointGrid* cloud,
-                             double pixel_size) {
-  return take_back(mesh, before, cloud, pixel_size, false);
+                             double pixel_size, const Progress& progress) {
+  return take_back(mesh, before, cloud, pixel_size, false, progress);
 }
 
 std::size_t take_back_vanished(TriangleMesh& mesh, const TriangleMesh& before,
-                               const PointGrid& cloud, double pixel_size) {
-  return take_back(mesh, before, &cloud, pixel_size, true);
+                               const PointGrid& cloud, double pixel_size,
+                               const Progress& progress) {
+  return take_back(mesh, before, &cloud, pixel_size, true, progress);
 }
 
 }  // namespace rangezip

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "core/base/progress.h"
 #include "core/finish/point_grid.h"
 #include "core/mesh/triangle_mesh.h"
 
@@ -20,13 +21,15 @@ namespace rangezip {
 /// @param cloud null where walls are so close that points do not tell which of them they are of
 /// @param pixel_size h, model units
 /// @return faces that came back
+/// @throws Cancelled if `progress` says so.
 /// @pre both oriented, manifold (clean_topology.h); stays so. Vertices may get new numbers.
 std::size_t take_back_losses(TriangleMesh& mesh, const TriangleMesh& before, const PointGrid* cloud,
-                             double pixel_size);
+                             double pixel_size, const Progress& progress = {});
 
 /// The same for components of which nothing is left, such as the two sides of a thin body that are
 /// too close to be joined: ring by ring, the rounds of a repair take them away altogether.
 std::size_t take_back_vanished(TriangleMesh& mesh, const TriangleMesh& before,
-                               const PointGrid& cloud, double pixel_size);
+                               const PointGrid& cloud, double pixel_size,
+                               const Progress& progress = {});
 
 }  // namespace rangezip

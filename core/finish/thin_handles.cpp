@@ -304,7 +304,7 @@ bool has_handles(const CornerTable& table) {
 /// The shortest paths first. A path that parts nothing has an edge whose word is not 0, so only
 /// the ends of those are asked.
 std::vector<Cycle> short_cycles(const CornerTable& table, const std::vector<double>& lengths,
-                                double max_length) {
+                                double max_length, const Progress& progress) {
   const EdgeWords words(table);
   std::vector<std::uint8_t> is_asked(table.vertex_count(), 0);
   for (std::uint32_t c = 0; c < table.corner_count(); ++c) {
@@ -318,6 +318,7 @@ std::vector<Cycle> short_cycles(const CornerTable& table, const std::vector<doub
   const LocalSearch search(table, words, lengths);
   std::vector<Cycle> cycles(asked.size());
   parallel_for(asked.size(), kVerticesPerBlock, [&](std::size_t begin, std::size_t end) {
+    progress.check_stop();
     for (std::size_t i = begin; i < end; ++i)
       cycles[i] = search.shortest_through(asked[i], max_length);
   });
@@ -363,13 +364,13 @@ bool is_around_hole(const Cycle& cycle, const LoopDisc& disc, const TriangleMesh
 
 /// Paths that no object has, the shortest first.
 std::vector<Cycle> false_cycles(const TriangleMesh& mesh, const CornerTable& table,
-                                const ThinHandleOptions& options) {
+                                const ThinHandleOptions& options, const Progress& progress) {
   const std::vector<double> lengths = lengths_of(mesh, table, options.gaps);
   constexpr double kLeastHole = 3.5;  // in h, around it
   const bool has_points = options.cloud.cloud != nullptr && !options.cloud.cloud->empty();
   const double longest =
       has_points ? std::max(options.max_girth, options.filled_girth) : options.max_girth;
-  std::vector<Cycle> cycles = short_cycles(table, lengths, longest);
+  std::vector<Cycle> cycles = short_cycles(table, lengths, longest, progress);
   std::erase_if(cycles, [&](const Cycle& cycle) {
     if (!has_points) return false;
     const std::vector<Vec3> path = places_along(cycle, mesh);
@@ -384,14 +385,15 @@ std::vector<Cycle> false_cycles(const TriangleMesh& mesh, const CornerTable& tab
 
 }  // namespace
 
-std::size_t cut_thin_handles(TriangleMesh& mesh, const ThinHandleOptions& options) {
+std::size_t cut_thin_handles(TriangleMesh& mesh, const ThinHandleOptions& options,
+                             const Progress& progress) {
   const CornerTable table(mesh.triangles, mesh.positions.size());
   if (!has_handles(table)) return 0;
   std::vector<std::uint8_t> is_dropped(mesh.triangles.size(), 0);
   std::vector<std::uint8_t> is_touched(mesh.positions.size(), 0);  // by an earlier cut
   IndependentWords cut_words;
   std::size_t cuts = 0;
-  for (const Cycle& cycle : false_cycles(mesh, table, options)) {
+  for (const Cycle& cycle : false_cycles(mesh, table, options, progress)) {
     const bool meets_cut = std::any_of(cycle.vertices.begin(), cycle.vertices.end(),
                                        [&](std::uint32_t v) { return is_touched[v] != 0; });
     if (meets_cut || !cut_words.add(cycle.word)) continue;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "core/base/progress.h"
 #include "core/finish/cloud_evidence.h"
 #include "core/finish/point_grid.h"
 #include "core/mesh/triangle_mesh.h"
@@ -32,7 +33,9 @@ struct ThinHandleOptions {
 /// along it look at its axis (with a cosine of 0.3) and have a point within 0.6 h, or one spacing.
 /// A hole of 2 h is 8 h around, but coarse faces that cut its corners are less.
 /// @return how many paths were cut; call it again after closing the holes until none is
+/// @throws Cancelled if `progress` says so.
 /// @pre oriented and manifold
-std::size_t cut_thin_handles(TriangleMesh& mesh, const ThinHandleOptions& options);
+std::size_t cut_thin_handles(TriangleMesh& mesh, const ThinHandleOptions& options,
+                             const Progress& progress = {});
 
 }  // namespace rangezip

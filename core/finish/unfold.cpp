@@ -233,10 +233,10 @@ std::vector<BoundaryLoop> loops_around(const std::vector<Region>& regions,
 /// Puts fills in the place of regions. @return how many; 0, and nothing changes, if what stays of
 /// the others would cross them
 std::size_t replace(TriangleMesh& mesh, const std::vector<Region>& regions,
-                    const std::vector<HoleFill>& fills) {
+                    const std::vector<HoleFill>& fills, const Progress& progress) {
   const TriangleMesh before = mesh;
   drop(mesh.triangles, regions);
-  const std::vector<std::size_t> left = append_verified(mesh, fills);
+  const std::vector<std::size_t> left = append_verified(mesh, fills, progress);
   const std::size_t kept = mesh.triangles.size();
   for (const std::size_t i : left) {
     for (const std::uint32_t f : regions[i].faces)
@@ -244,12 +244,13 @@ std::size_t replace(TriangleMesh& mesh, const std::vector<Region>& regions,
   }
   std::vector<std::uint32_t> restored(mesh.triangles.size() - kept);
   std::iota(restored.begin(), restored.end(), static_cast<std::uint32_t>(kept));
-  if (self_intersections(mesh, restored).empty()) return fills.size() - left.size();
+  if (self_intersections(mesh, restored, {}, progress).empty()) return fills.size() - left.size();
   mesh = before;
   return 0;
 }
 
-std::size_t unfold_once(TriangleMesh& mesh, const PointGrid& cloud, const UnfoldOptions& options) {
+std::size_t unfold_once(TriangleMesh& mesh, const PointGrid& cloud, const UnfoldOptions& options,
+                        const Progress& progress) {
   const CornerTable table(mesh.triangles, mesh.positions.size());
   const std::vector<Region> regions = find_regions(mesh, table);
   if (regions.empty()) return 0;
@@ -260,21 +261,23 @@ std::size_t unfold_once(TriangleMesh& mesh, const PointGrid& cloud, const Unfold
   std::vector<Region> replaced;
   std::vector<HoleFill> fills;
   for (std::size_t i = 0; i < regions.size(); ++i) {
+    progress.check_stop();
     if (loops[i].corners.empty()) continue;  // the region was all of a component
     HoleFill fill = fill_loop(mesh.positions, without, loops[i], FillShape::smooth, 0.0);
     if (!is_better(fill, regions[i], loops[i], mesh, without, cloud, options)) continue;
     replaced.push_back(regions[i]);
     fills.push_back(std::move(fill));
   }
-  return fills.empty() ? 0 : replace(mesh, replaced, fills);
+  return fills.empty() ? 0 : replace(mesh, replaced, fills, progress);
 }
 
 }  // namespace
 
-std::size_t unfold(TriangleMesh& mesh, const PointGrid& cloud, const UnfoldOptions& options) {
+std::size_t unfold(TriangleMesh& mesh, const PointGrid& cloud, const UnfoldOptions& options,
+                   const Progress& progress) {
   std::size_t count = 0;
   for (int round = 0; round < kRounds; ++round) {
-    const std::size_t gone = unfold_once(mesh, cloud, options);
+    const std::size_t gone = unfold_once(mesh, cloud, options, progress);
     if (gone == 0) break;
     count += gone;
   }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "core/base/progress.h"
 #include "core/finish/point_grid.h"
 #include "core/mesh/triangle_mesh.h"
 
@@ -21,6 +22,8 @@ struct UnfoldOptions {
 /// left behind. Cost: linear, but for the folds.
 /// @pre oriented, manifold (core/finish/clean_topology.h)
 /// @return number of folds that are gone
-std::size_t unfold(TriangleMesh& mesh, const PointGrid& cloud, const UnfoldOptions& options);
+/// @throws Cancelled if `progress` says so.
+std::size_t unfold(TriangleMesh& mesh, const PointGrid& cloud, const UnfoldOptions& options,
+                   const Progress& progress = {});
 
 }  // namespace rangezip

@@ -77,8 +77,9 @@ std::vector<std::uint32_t> changed_faces(const TriangleMesh& mesh,
 
 }  // namespace
 
-UntangleReport take_back_crossing(TriangleMesh& mesh, const std::vector<Vec3>& before) {
-  Pairs pairs = self_intersections(mesh);
+UntangleReport take_back_crossing(TriangleMesh& mesh, const std::vector<Vec3>& before,
+                                  const Progress& progress) {
+  Pairs pairs = self_intersections(mesh, progress);
   const std::size_t crossed = pairs.size();
   if (pairs.empty()) return {};
   const CornerTable table(mesh.triangles, mesh.positions.size());
@@ -88,13 +89,14 @@ UntangleReport take_back_crossing(TriangleMesh& mesh, const std::vector<Vec3>& b
     for (std::size_t v = 0; v < taken_back.size(); ++v) {
       if (taken_back[v] != 0) mesh.positions[v] = before[v];
     }
-    pairs = self_intersections(mesh, changed_faces(mesh, taken_back, pairs));
+    pairs = self_intersections(mesh, changed_faces(mesh, taken_back, pairs), {}, progress);
   }
   return {crossed, std::move(pairs)};
 }
 
-UntangleReport untangle(TriangleMesh& mesh, std::span<const std::uint32_t> changed) {
-  Pairs pairs = self_intersections(mesh, changed);
+UntangleReport untangle(TriangleMesh& mesh, std::span<const std::uint32_t> changed,
+                        const Progress& progress) {
+  Pairs pairs = self_intersections(mesh, changed, {}, progress);
   if (pairs.empty()) return {};
   const CornerTable table(mesh.triangles, mesh.positions.size());
   const std::size_t crossed = pairs.size();
@@ -103,7 +105,7 @@ UntangleReport untangle(TriangleMesh& mesh, std::span<const std::uint32_t> chang
         tangled_vertices(table, pairs, round >= kNarrowRounds);
     for (int step = 0; step < kSteps; ++step)
       smooth(mesh.positions, table, tangled);
-    pairs = self_intersections(mesh, changed_faces(mesh, tangled, pairs));
+    pairs = self_intersections(mesh, changed_faces(mesh, tangled, pairs), {}, progress);
   }
   return {crossed, std::move(pairs)};
 }

@@ -37,10 +37,11 @@ Trial make_trial(const TriangleMesh& mesh, const std::vector<HoleFill>& fills) {
 }
 
 /// Those with a new face, which is the second one (or both are).
-std::vector<std::pair<std::uint32_t, std::uint32_t>> crossing_pairs(const Trial& trial) {
+std::vector<std::pair<std::uint32_t, std::uint32_t>> crossing_pairs(const Trial& trial,
+                                                                    const Progress& progress) {
   std::vector<std::uint32_t> added(trial.fill_of.size());
   std::iota(added.begin(), added.end(), static_cast<std::uint32_t>(trial.old_faces));
-  return self_intersections(trial.mesh, added);
+  return self_intersections(trial.mesh, added, {}, progress);
 }
 
 struct FillVerdict {
@@ -48,9 +49,10 @@ struct FillVerdict {
   std::vector<std::uint32_t> obstructed;  ///< VerifiedFills::obstructed
 };
 
-FillVerdict judge_fills(const TriangleMesh& mesh, const std::vector<HoleFill>& fills) {
+FillVerdict judge_fills(const TriangleMesh& mesh, const std::vector<HoleFill>& fills,
+                        const Progress& progress) {
   const Trial trial = make_trial(mesh, fills);
-  const auto pairs = crossing_pairs(trial);
+  const auto pairs = crossing_pairs(trial, progress);
   FillVerdict verdict;
   for (const auto& pair : pairs) {
     for (const std::uint32_t face : {pair.first, pair.second}) {
@@ -108,8 +110,8 @@ std::vector<HoleFill> fills_for(const TriangleMesh& mesh, const CornerTable& tab
 class Filler {
  public:
   Filler(TriangleMesh& mesh, const CornerTable& table, const std::vector<FillRequest>& requests,
-         const VerifiedFillOptions& options)
-      : mesh_(mesh), table_(table), requests_(requests), options_(options) {}
+         const VerifiedFillOptions& options, const Progress& progress)
+      : mesh_(mesh), table_(table), requests_(requests), options_(options), progress_(progress) {}
 
   VerifiedFills run() {
     std::vector<std::size_t> all(requests_.size());
@@ -139,6 +141,7 @@ class Filler {
     };
     std::vector<std::vector<HoleFill>> made(chosen.size());
     parallel_for(chosen.size(), 1, [&](std::size_t begin, std::size_t end) {
+      progress_.check_stop();
       for (std::size_t k = begin; k < end; ++k)
         made[k] = fills_for(mesh_, table_, requests_[chosen[k]], shape_of(chosen[k]), options_);
     });
@@ -164,6 +167,7 @@ class Filler {
     const FacesAround around(mesh_, loops, edge);
     std::vector<HoleFill> fills(chosen.size());
     parallel_for(chosen.size(), 1, [&](std::size_t begin, std::size_t end) {
+      progress_.check_stop();
       for (std::size_t k = begin; k < end; ++k)
         fills[k] = free_fill(mesh_, table_, requests_[chosen[k]].loop, around,
                              kLongestFreeSide * edge, options_.evidence);
@@ -192,7 +196,7 @@ class Filler {
     const auto shape_of = [&](std::size_t request) {
       return instead.value_or(requests_[request].shape);
     };
-    auto [fails, obstructed] = judge_fills(mesh_, fills);
+    auto [fails, obstructed] = judge_fills(mesh_, fills, progress_);
     const std::size_t base = mesh_.positions.size();
     std::vector<std::uint8_t> is_served(requests_.size(), 0);
     for (std::size_t i = 0; i < fills.size(); ++i) {
@@ -214,6 +218,7 @@ class Filler {
   const CornerTable& table_;
   const std::vector<FillRequest>& requests_;
   const VerifiedFillOptions& options_;
+  const Progress& progress_;
   VerifiedFills result_;
 };
 
@@ -221,16 +226,16 @@ class Filler {
 
 VerifiedFills fill_verified(TriangleMesh& mesh, const CornerTable& table,
                             const std::vector<FillRequest>& requests,
-                            const VerifiedFillOptions& options) {
+                            const VerifiedFillOptions& options, const Progress& progress) {
   if (requests.empty()) return {};
-  return Filler(mesh, table, requests, options).run();
+  return Filler(mesh, table, requests, options, progress).run();
 }
 
-std::vector<HoleFill> without_crossing_faces(const TriangleMesh& mesh,
-                                             std::vector<HoleFill> fills) {
+std::vector<HoleFill> without_crossing_faces(const TriangleMesh& mesh, std::vector<HoleFill> fills,
+                                             const Progress& progress) {
   if (fills.empty()) return fills;
   const Trial trial = make_trial(mesh, fills);
-  const auto pairs = crossing_pairs(trial);
+  const auto pairs = crossing_pairs(trial, progress);
   std::vector<std::uint8_t> goes(trial.mesh.triangles.size(), 0);
   for (const auto& [i, j] : pairs) {  // first, since what goes is in no other's way
     if (i < trial.old_faces) goes[j] = 1;
@@ -244,9 +249,10 @@ std::vector<HoleFill> without_crossing_faces(const TriangleMesh& mesh,
   return fills;
 }
 
-std::vector<std::size_t> append_verified(TriangleMesh& mesh, const std::vector<HoleFill>& fills) {
+std::vector<std::size_t> append_verified(TriangleMesh& mesh, const std::vector<HoleFill>& fills,
+                                         const Progress& progress) {
   if (fills.empty()) return {};
-  const std::vector<std::uint8_t> fails = judge_fills(mesh, fills).fails;
+  const std::vector<std::uint8_t> fails = judge_fills(mesh, fills, progress).fails;
   const std::size_t base = mesh.positions.size();
   std::vector<std::size_t> left_out;
   for (std::size_t i = 0; i < fills.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/base/progress.h"
 #include "core/finish/hole_filling.h"
 
 namespace rangezip {
@@ -39,18 +40,22 @@ struct VerifiedFills {
 /// least sharp of those coarse ones whose faces cross nothing (own), unless 10 % of it lead through
 /// air; and of loops longer than zipped_from at last the part where their sides are close. A mesh
 /// without self-intersections stays without. Of two fills that cross, the earlier one stays.
+/// @throws Cancelled if `progress` says so.
 /// @pre `table` is that of `mesh` (and no longer after).
 VerifiedFills fill_verified(TriangleMesh& mesh, const CornerTable& table,
                             const std::vector<FillRequest>& requests,
-                            const VerifiedFillOptions& options);
+                            const VerifiedFillOptions& options, const Progress& progress = {});
 
 /// The faces of fills that cross neither the mesh nor each other; of two that cross, the earlier
-/// one.
+/// one. @throws Cancelled if `progress` says so.
 [[nodiscard]] std::vector<HoleFill> without_crossing_faces(const TriangleMesh& mesh,
-                                                           std::vector<HoleFill> fills);
+                                                           std::vector<HoleFill> fills,
+                                                           const Progress& progress = {});
 
 /// Appends the fills whose faces cross neither the mesh nor each other; of two that cross, the
 /// earlier one stays. @return indices of those that were not appended
-std::vector<std::size_t> append_verified(TriangleMesh& mesh, const std::vector<HoleFill>& fills);
+/// @throws Cancelled if `progress` says so.
+std::vector<std::size_t> append_verified(TriangleMesh& mesh, const std::vector<HoleFill>& fills,
+                                         const Progress& progress = {});
 
 }  // namespace rangezip
