@@ -143,7 +143,7 @@ void mesh(const MeshOptions& options, const Context& context) {
         record_session(options.inputs, input, std::nullopt, std::move(result.commands), progress);
   }
   const StageClock write_clock;
-  write_output([&] { write_mesh(options.output, result.mesh, options.file); });
+  write_output([&] { write_mesh(options.output, result.mesh, options.file, progress); });
   run.stages.push_back(write_clock.stage("write"));
   if (options.session) write_output([&] { write_session(*options.session, *session); });
   run.inputs = std::move(input.reports);

@@ -74,7 +74,7 @@ void play(const PlayOptions& options, const Context& context) {
   progress.check_stop();
 
   require_faces(*session.mesh(), options.output, "the commands leave none");
-  write_output([&] { write_mesh(options.output, *session.mesh(), options.file); });
+  write_output([&] { write_mesh(options.output, *session.mesh(), options.file, progress); });
   console.print(fmt::format("session   {} commands", file.commands.size()));
   console.print(fmt::format("mesh      {}", topology_text(report_mesh(*session.mesh()))));
   console.print(fmt::format("written   {}", options.output.string()));

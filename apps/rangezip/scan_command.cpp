@@ -127,7 +127,7 @@ void scan(const ScanOptions& options, const Context& context) {
   write_output([&] { write_images(options, input.scene, *session.last_scan()); });
   if (options.output) {
     require_faces(*session.mesh(), *options.output, "nothing of the input is seen and taken");
-    write_output([&] { write_mesh(*options.output, *session.mesh(), options.file); });
+    write_output([&] { write_mesh(*options.output, *session.mesh(), options.file, progress); });
   }
   if (file) write_output([&] { write_session(*options.session, *file); });
   print_summary(console, input.scene, command, report, *session.mesh());

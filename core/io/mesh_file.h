@@ -23,10 +23,11 @@ void check_mesh_path(const std::filesystem::path& path);
 /// @throws IoError for an unknown extension, if the file cannot be written in full, or if two
 /// corners
 ///     of a face would become one in the floats of binary STL.
+/// @throws Cancelled if `progress` says so, until all is written and only left to be flushed.
 /// @throws InvalidArgument if `with_sources` is asked of a mesh without sources.
 /// @pre every corner is the index of a position
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh,
-                const MeshFileOptions& options = {});
+                const MeshFileOptions& options = {}, const Progress& progress = {});
 
 /// Reads a mesh with its connectivity, positions in double: PLY, OBJ, OFF, STL (corners at the same
 /// place are joined), .gz of each. Polygons are split. Not checked for manifoldness.

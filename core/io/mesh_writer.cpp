@@ -13,12 +13,16 @@ namespace rangezip {
 
 namespace {
 
+constexpr std::size_t kPartsPerLook = 65536;  ///< numbers, between looks at whether to stop
+
 /// Puts values into an AtomicFile as text or as little-endian bytes.
 class MeshOutput {
  public:
-  explicit MeshOutput(const std::filesystem::path& path) : file_(path) {}
+  MeshOutput(const std::filesystem::path& path, const Progress& progress)
+      : file_(path), progress_(progress) {}
 
   MeshOutput& text(std::string_view words) {
+    if (++parts_ % kPartsPerLook == 0) progress_.check_stop();
     file_.write(words);
     return *this;
   }
@@ -37,10 +41,15 @@ class MeshOutput {
     const auto stored = little_bytes(value);
     return text({stored.data(), stored.size()});
   }
-  void commit() { file_.commit(); }
+  void commit() {
+    progress_.check_stop();
+    file_.commit();
+  }
 
  private:
   AtomicFile file_;
+  const Progress& progress_;
+  std::size_t parts_ = 0;  ///< written so far
 };
 
 void write_ply_header(MeshOutput& out, const TriangleMesh& mesh, const MeshFileOptions& options) {
@@ -192,7 +201,7 @@ void check_mesh_path(const std::filesystem::path& path) {
 }
 
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh,
-                const MeshFileOptions& options) {
+                const MeshFileOptions& options, const Progress& progress) {
   const Writer write = writer_for(path);
   if (options.with_sources && mesh.sources.size() != mesh.positions.size()) {
     throw InvalidArgument("write_mesh: with_sources needs one source per position, got " +
@@ -200,7 +209,7 @@ void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh,
                           std::to_string(mesh.positions.size()));
   }
   if (write == &write_stl && !options.ascii) check_fits_floats(mesh, path);
-  MeshOutput out(path);
+  MeshOutput out(path, progress);
   write(out, mesh, options);
   out.commit();
 }

@@ -5,6 +5,7 @@
 #include <climits>
 #include <cmath>
 #include <csignal>
+#include <stop_token>
 #include <string>
 
 #include "core/base/error.h"
@@ -161,6 +162,22 @@ TEST_CASE(
     CHECK_THROWS_WITH(write_mesh(folder / name, mesh),
                       Catch::Matchers::Contains(name + ": cannot be written in full: "));
   }
+  CHECK(folder.count() == (is_there ? 1 : 0));
+  if (is_there) CHECK(load(folder / name) == "old");
+}
+
+TEST_CASE("A stop ends the writing of a mesh: nothing new is there, and what was there stays") {
+  const TemporaryFolder folder;
+  const TriangleMesh mesh = random_mesh(1, 20000);
+  const std::string name = GENERATE("a.ply", "a.obj", "a.off", "a.stl");
+  const bool ascii = GENERATE(false, true);
+  const bool is_there = GENERATE(false, true);
+  CAPTURE(name, ascii, is_there);
+  if (is_there) folder.store(name, "old");
+  std::stop_source source;
+  source.request_stop();
+  CHECK_THROWS_AS(write_mesh(folder / name, mesh, {.ascii = ascii}, {.stop = source.get_token()}),
+                  Cancelled);
   CHECK(folder.count() == (is_there ? 1 : 0));
   if (is_there) CHECK(load(folder / name) == "old");
 }
