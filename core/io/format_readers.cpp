@@ -26,13 +26,14 @@ constexpr std::array<std::pair<std::string_view, Reader>, 9> kReaders{{
     {"stl", read_stl},
 }};
 
-Reader reader_of(const std::filesystem::path& path) {
+Reader reader_of(const std::filesystem::path& path, std::string_view also_known = {}) {
   const std::string type = file_type(path);
   std::string all_known;
   for (const auto& [known, reader] : kReaders) {
     if (known == type) return reader;
     all_known += " ." + std::string(known);
   }
+  if (!also_known.empty()) all_known += " ." + std::string(also_known);
   std::error_code error;
   const bool is_pipe = std::filesystem::is_other(path, error);
   throw IoError(path.string() + ": unknown type " + quote(type) + "; known are" + all_known +
@@ -41,8 +42,8 @@ Reader reader_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-void check_geometry_type(const std::filesystem::path& path) {
-  std::ignore = reader_of(path);
+void check_geometry_type(const std::filesystem::path& path, std::string_view also_known) {
+  std::ignore = reader_of(path, also_known);
 }
 
 RawGeometry read_geometry(const FileBytes& file, PositionList::Precision precision,

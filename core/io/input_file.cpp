@@ -124,7 +124,7 @@ InputFile read_one(const FileBytes& file, const Mat4& world_from_file, const Pro
 }  // namespace
 
 bool is_list_of_scans(const std::filesystem::path& path) {
-  return file_type(path) == "conf";
+  return file_type(path) == kListOfScans;
 }
 
 InputFile read_opened_input(const FileBytes& file, const Progress& progress) {
@@ -133,7 +133,7 @@ InputFile read_opened_input(const FileBytes& file, const Progress& progress) {
 
 InputFile read_input(const std::filesystem::path& path, const Progress& progress) {
   if (!is_list_of_scans(path)) {
-    check_geometry_type(path);
+    check_geometry_type(path, kListOfScans);
     return read_opened_input(FileBytes(path, FileBytes::Packing::unpack, progress), progress);
   }
   const FileBytes file(path, FileBytes::Packing::unpack, progress);

@@ -7,7 +7,7 @@ namespace rangezip {
 
 InputWithMesh read_input_with_mesh(const std::filesystem::path& path, const Progress& progress) {
   if (is_list_of_scans(path)) return {.input = read_input(path, progress)};
-  check_geometry_type(path);
+  check_geometry_type(path, kListOfScans);
   const FileBytes file(path, FileBytes::Packing::unpack, progress);
   InputWithMesh both{.input = read_opened_input(file, progress)};
   if (both.input.reports.front().triangles != 0) both.mesh = read_opened_mesh(file, progress);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/geometry.h"
@@ -122,8 +123,9 @@ inline constexpr std::size_t kMostPositions = 0xffff'ffffU;
 
 /// For before a file is opened: what has no end, or unpacks to more than the memory, need not be
 /// read to be refused.
+/// @param also_known a type that the caller reads by itself, named with the others: "conf"
 /// @throws IoError if read_geometry() does not know the type of `path`.
-void check_geometry_type(const std::filesystem::path& path);
+void check_geometry_type(const std::filesystem::path& path, std::string_view also_known = {});
 
 /// The polygons as triangles, each within one polygon and in its orientation, in the order of the
 /// file.

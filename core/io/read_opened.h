@@ -1,5 +1,8 @@
 #pragma once
 
+#include <filesystem>
+#include <string_view>
+
 #include "core/io/file_bytes.h"
 #include "core/io/input_file.h"
 #include "core/mesh/triangle_mesh.h"
@@ -8,6 +11,9 @@ namespace rangezip {
 
 /// What read_input() and read_mesh() do with a file once it is open: for whoever wants both of it,
 /// since a pipe can be opened only once.
+
+/// The type of lists of Stanford range scans.
+inline constexpr std::string_view kListOfScans = "conf";
 
 /// True for lists of Stanford range scans, which are no geometry themselves.
 [[nodiscard]] bool is_list_of_scans(const std::filesystem::path& path);

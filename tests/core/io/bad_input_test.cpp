@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/io/file_hash.h"
 #include "core/io/input_file.h"
+#include "core/io/input_with_mesh.h"
 #include "core/io/mesh_file.h"
 #include "tests/core/io/temporary_folder.h"
 
@@ -290,6 +291,14 @@ TEST_CASE("A file of unknown type is refused without being opened") {
     CHECK_THAT(refusal(path), rule);
     CHECK_THROWS_WITH(read_mesh(path), rule);
   }
+}
+
+TEST_CASE(
+    "What is said of an unknown type names the types that are read there, lists of scans too") {
+  const std::string all = "known are .ply .xyz .pts .asc .csv .txt .obj .off .stl";
+  CHECK_THAT(refusal("a.doc"), Catch::Matchers::EndsWith(all + " .conf"));
+  CHECK_THROWS_WITH(read_input_with_mesh("a.doc"), Catch::Matchers::EndsWith(all + " .conf"));
+  CHECK_THROWS_WITH(read_mesh("a.doc"), Catch::Matchers::EndsWith(all));
 }
 
 TEST_CASE("A mesh without a face is refused as a mesh") {
