@@ -108,24 +108,26 @@ void verify(const MeshOptions& options, const ReconstructReport& report) {
   throw NotVerified(options.output.string() + ": the mesh is written, but is not clean: " + faults);
 }
 
+/// Refuses `files` that the run could not be recorded with, for --session and for the referee.
+void check_replay(const MeshOptions& options, const Outputs& outputs,
+                  const std::vector<std::filesystem::path>& files) {
+  if (!options.session && !options.verify) return;
+  require_rereadable(files, options.session);
+  if (options.verify) require_rereadable(files, session_for_referee(options.output));
+  outputs.refuse_overwriting(files);
+}
+
 void mesh(const MeshOptions& options, const Context& context) {
   const auto rasterizer = make_rasterizer(options.common.backend);
   const Outputs outputs = outputs_of(options);
-  const bool is_replayed = options.session || options.verify;
-  if (is_replayed) {
-    require_rereadable(options.inputs, options.session);
-    outputs.refuse_overwriting(options.inputs);
-  }
+  check_replay(options, outputs, options.inputs);
   const auto referee = options.verify ? std::optional(find_referee()) : std::nullopt;
   Console console(options.common.quiet, context.stop);
   const StageClock total;
 
   MeshRunReport run{.rasterizer = rasterizer->info()};
   SceneInput input = read_inputs(options.inputs, console);
-  if (is_replayed) {
-    require_rereadable(files_of(input), options.session);
-    outputs.refuse_overwriting(files_of(input));
-  }
+  check_replay(options, outputs, files_of(input));
   run.stages.push_back(total.stage("read"));
 
   const auto [amount, unit] = workload_of(input.scene);
@@ -138,7 +140,7 @@ void mesh(const MeshOptions& options, const Context& context) {
   require_faces(result.mesh, options.output,
                 "the scans were too small: use a smaller --pixel-size or more --triangles");
   std::optional<SessionFile> session;
-  if (is_replayed) {
+  if (options.session || options.verify) {
     session =
         record_session(options.inputs, input, std::nullopt, std::move(result.commands), progress);
   }

@@ -34,7 +34,7 @@ constexpr std::chrono::milliseconds kPause{20};  // between looks at the referee
 class StoredSession {
  public:
   StoredSession(const SessionFile& session, const fs::path& output)
-      : path_(output.string() + ".verify-" + std::to_string(getpid()) + ".json") {
+      : path_(session_for_referee(output)) {
     write_output([&] { write_session(path_, session); });
   }
   StoredSession(const StoredSession&) = delete;
@@ -95,6 +95,10 @@ fs::path find_referee() {
   }
   throw UsageError("--verify: needs the program " + places[0].string() +
                    ", which is not installed (build with RANGEZIP_BUILD_COMPARE=ON)");
+}
+
+fs::path session_for_referee(const fs::path& output) {
+  return output.string() + ".verify-" + std::to_string(getpid()) + ".json";
 }
 
 void let_referee_judge(const fs::path& referee, const SessionFile& session, const fs::path& output,

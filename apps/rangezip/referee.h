@@ -12,8 +12,11 @@ namespace rangezip::app {
 /// @throws UsageError if it is not there
 [[nodiscard]] std::filesystem::path find_referee();
 
+/// Where the session lies while the referee judges: beside `output`.
+[[nodiscard]] std::filesystem::path session_for_referee(const std::filesystem::path& output);
+
 /// Lets the referee play the session and judge every stitch with CGAL; what it prints goes to
-/// standard output unless `quiet`. The session lies beside `output` meanwhile.
+/// standard output unless `quiet`. Meanwhile the session lies at session_for_referee(output).
 /// @param backend draws the scans
 /// @throws NotVerified if a stitch is not good, OutputError if the session cannot be written,
 ///     Cancelled if it was interrupted or is to stop, Error if it failed.

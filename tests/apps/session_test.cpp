@@ -146,6 +146,17 @@ TEST_CASE("an input that a session cannot name is refused before the work", "[ap
   CHECK(run({"mesh", folder / "caf\xe9.ply", "-o", folder / "out.ply"}).code == 0);
 }
 
+TEST_CASE("so is one that the session for --verify cannot name", "[apps]") {
+  const TemporaryFolder folder;
+  store_sphere(folder / "caf\xe9.ply", 1000);
+  const RunResult result =
+      run({"mesh", folder / "caf\xe9.ply", "-o", folder / "out.ply", "--verify"});
+  CHECK(result.code == 3);
+  CHECK_THAT(result.err, Contains("caf\xe9.ply") && Contains("UTF-8"));
+  CHECK_THAT(result.err, !Contains("reading"));
+  CHECK(folder.count() == 1);
+}
+
 TEST_CASE("info knows a session by its name in capital letters, too", "[apps]") {
   const TemporaryFolder folder;
   const std::string session = R"({"version": 1, "inputs": [], "commands": []})";
