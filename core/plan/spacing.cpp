@@ -317,7 +317,7 @@ Spacing estimate_spacing(std::span<const Vec3> points) {
   }
   const std::vector<double> noises = noises_of(places);
   Spacing spacing{.median = quantile(spacings, 0.5), .quantile75 = quantile(spacings, 0.75)};
-  spacing.sparse = quantile_of_surface(queries, noises, spacing.median, 0.75);
+  spacing.sparse = quantile_of_surface(queries, noises, spacing.median, 0.9);
   if (const auto contours = contour_spacing(points, queries)) spacing = *contours;
   spacing.near_noise = quantile(noises, 0.5);
   widen_over_noise(points, places);
@@ -334,20 +334,22 @@ double closed_sheet_pixel_size(const Spacing& spacing) {
 }
 
 bool is_uneven(const Spacing& spacing) {
-  constexpr double kUneven = 2.0;
+  constexpr double kUneven = 1.4;
   return spacing.sparse >= kUneven * spacing.median;
 }
 
 double pixel_size_from_spacing(const Spacing& spacing) {
   constexpr double kFewestPerSpacing = 1.3;  // one pixel in five stays empty, and is filled
   constexpr double kPixelsAcross = 250.0;
+  constexpr double kEven = 1.25;  // sparse by median: even clouds have so much by chance
+  constexpr double kPerSparse = 1.45;
   constexpr double kCoarsest = 4.0;  // local_sizes() are down to a quarter
   const double closed = closed_sheet_pixel_size(spacing);
-  const double finest = std::max({kFewestPerSpacing * 0.5 * (spacing.median + spacing.quantile75),
-                                  size_for_noise(spacing), spacing.gap});
+  const double fewest = kFewestPerSpacing * 0.5 * (spacing.median + spacing.quantile75);
+  const double finest = std::max({fewest, size_for_noise(spacing), spacing.gap});
   const double usual = std::min(closed, std::max(finest, spacing.diagonal / kPixelsAcross));
-  if (!is_uneven(spacing)) return usual;
-  return std::clamp(kFewestPerSpacing * spacing.sparse, usual, kCoarsest * usual);
+  const double excess = std::max(spacing.sparse - kEven * spacing.median, 0.0);
+  return std::clamp(fewest + kPerSparse * excess, usual, kCoarsest * usual);
 }
 
 }  // namespace rangezip

@@ -13,7 +13,7 @@ namespace rangezip {
 struct Spacing {
   double median = 0.0;      ///< 1 / sqrt(density), model units
   double quantile75 = 0.0;  ///< three quarters of the cloud are at least this dense
-  double sparse = 0.0;      ///< three quarters of the surface are at least this dense
+  double sparse = 0.0;      ///< nine tenths of the surface are at least this dense
   double gap = 0.0;         ///< between contours, if the cloud is made of such; else 0
   double near_noise = 0.0;  ///< median distance (RMS) of points from their neighbours' plane
   double noise = 0.0;       ///< the same of all points as near as the noise is wide
@@ -42,14 +42,16 @@ struct Spacing {
 /// least 1.5 gaps between contours.
 [[nodiscard]] double closed_sheet_pixel_size(const Spacing& spacing);
 
-/// Whether a quarter of the surface or more is over twice as sparse as the median.
+/// Whether a tenth of the surface or more is over 1.4 times as sparse as the median: of a cloud of
+/// points thrown at random it is 1.2 times, by chance.
 [[nodiscard]] bool is_uneven(const Spacing& spacing);
 
 /// The pixel side for the scans of a cloud: that of the closed sheet, but down to 1.3 spacings
 /// where the cloud is so sparse that fewer than 250 pixels would lie across it; shape is worth more
-/// then than closed pixels. A pixel is no smaller than the gap between contours. Of an uneven cloud
-/// it is no smaller than 1.3 spacings of the sparse part, up to four times as much: of the rest
-/// finer scans are made later (core/finish/local_sizes.h).
+/// then than closed pixels. A pixel is no smaller than the gap between contours. Where the sparse
+/// tenth of the surface exceeds 1.25 medians it is at least 1.3 spacings and 1.45 times the excess,
+/// up to four times as much as else: pixels that show through one side of a wall of sparse points
+/// lose the other one. Of the dense parts finer scans are made later (core/finish/local_sizes.h).
 [[nodiscard]] double pixel_size_from_spacing(const Spacing& spacing);
 
 /// A box that leaves out far outliers. Per axis the middle half of the cloud is widened on both

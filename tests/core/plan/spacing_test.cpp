@@ -56,7 +56,7 @@ TEST_CASE("a pixel is chosen for the sparse part of an uneven cloud, not for out
   CHECK(uneven.median == Approx(expected));
   CHECK(uneven.quantile75 == Approx(expected));
   CHECK(uneven.sparse == Approx(4.0 * expected));
-  CHECK(pixel_size_from_spacing(uneven) == Approx(1.3 * 4.0 * expected));
+  CHECK(pixel_size_from_spacing(uneven) == Approx((1.3 + 1.45 * (4.0 - 1.25)) * expected));
 
   std::vector<Vec3> with_outliers = lattice(400, 1.0);
   shapes::Random random(7);
@@ -65,6 +65,29 @@ TEST_CASE("a pixel is chosen for the sparse part of an uneven cloud, not for out
   const Spacing even = estimate_spacing(with_outliers);
   CHECK(even.sparse < 1.5 * expected);
   CHECK(pixel_size_from_spacing(even) == Approx(2.2 * expected).epsilon(0.05));
+}
+
+TEST_CASE("a cloud whose density falls evenly is given pixels for its sparse end") {
+  const std::uint64_t seed = GENERATE(range<std::uint64_t>(1, 6));
+  const double ratio = GENERATE(1.0, 5.0, 10.0);
+  CAPTURE(seed, ratio);
+  shapes::Random random(seed);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 20'000; ++i) {  // of a density of ratio^x, by the inverse of its sum
+    const double u = random.unit();
+    const double x = ratio > 1.0 ? std::log1p(u * (ratio - 1.0)) / std::log(ratio) : u;
+    points.emplace_back(x, random.unit(), 0.0);
+  }
+  const Spacing spacing = estimate_spacing(points);
+  const double total = ratio > 1.0 ? (ratio - 1.0) / std::log(ratio) : 1.0;
+  const auto spacing_at = [&](double x) {
+    return std::sqrt(total / 20'000.0 / std::pow(ratio, x));
+  };
+  CHECK(spacing.sparse > 0.95 * spacing_at(0.1));
+  CHECK(spacing.sparse < 1.25 * spacing_at(0.1));  // it varies by chance
+  CHECK(pixel_size_from_spacing(spacing) > 1.15 * spacing_at(0.1));
+  CHECK(pixel_size_from_spacing(spacing) < 1.75 * spacing_at(0.1));
+  CHECK(is_uneven(spacing) == (ratio > 1.0));
 }
 
 TEST_CASE("no outliers make a cloud uneven, near its surface or far from it") {
