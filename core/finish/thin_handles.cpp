@@ -1,10 +1,12 @@
 #include "core/finish/thin_handles.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <queue>
+#include <set>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -362,6 +364,57 @@ bool is_around_hole(const Cycle& cycle, const LoopDisc& disc, const TriangleMesh
   return static_cast<double>(shown) >= kLeastShare * static_cast<double>(faces.size());
 }
 
+/// The half-edge from a vertex to a neighbour, kNone if there is none with a face.
+std::uint32_t half_edge(const CornerTable& table, std::uint32_t from, std::uint32_t to) {
+  std::uint32_t found = CornerTable::kNone;
+  table.for_each_corner(from, [&](std::uint32_t c) { found = table.head(c) == to ? c : found; });
+  return found;
+}
+
+/// The faces on the left of a path, then those behind them, and so on: rings that are parted from
+/// the other side by the path. Faces of earlier rings are in no later one.
+std::vector<std::vector<std::uint32_t>> rings_beside(const std::vector<std::uint32_t>& path,
+                                                     const CornerTable& table, std::size_t count) {
+  std::vector<std::vector<std::uint32_t>> rings(count);
+  std::set<std::uint32_t> known;  // and those across the path
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const std::uint32_t c = half_edge(table, path[i], path[(i + 1) % path.size()]);
+    if (c == CornerTable::kNone) continue;
+    if (table.across(c) != CornerTable::kNone) known.insert(table.across(c) / 3);
+    rings[0].push_back(c / 3);
+  }
+  known.insert(rings[0].begin(), rings[0].end());
+  for (std::size_t i = 1; i < count; ++i) {
+    for (const std::uint32_t f : rings[i - 1]) {
+      for (std::uint32_t c = 3 * f; c < 3 * f + 3; ++c) {
+        const std::uint32_t other = table.across(c);
+        if (other != CornerTable::kNone && known.insert(other / 3).second)
+          rings[i].push_back(other / 3);
+      }
+    }
+  }
+  return rings;
+}
+
+/// Whether a path leads around a tunnel through a wall: all faces, but for one in four, of a ring
+/// beside it lie in the air.
+bool is_beside_air(const Cycle& cycle, const TriangleMesh& mesh, const CornerTable& table,
+                   const CloudEvidence& evidence) {
+  constexpr std::size_t kRings = 3;
+  const auto is_shown = [&](std::uint32_t f) {
+    return is_supported(*evidence.cloud, centroid_of(mesh.positions, mesh.triangles[f]),
+                        evidence.pixel_size, kCloseSupport);
+  };
+  const std::vector<std::uint32_t> back(cycle.vertices.rbegin(), cycle.vertices.rend());
+  for (const std::vector<std::uint32_t>& path : {cycle.vertices, back}) {
+    for (const std::vector<std::uint32_t>& ring : rings_beside(path, table, kRings)) {
+      const auto shown = std::count_if(ring.begin(), ring.end(), is_shown);
+      if (!ring.empty() && 4 * static_cast<std::size_t>(shown) <= ring.size()) return true;
+    }
+  }
+  return false;
+}
+
 /// Paths that no object has, the shortest first.
 std::vector<Cycle> false_cycles(const TriangleMesh& mesh, const CornerTable& table,
                                 const ThinHandleOptions& options, const Progress& progress) {
@@ -375,6 +428,7 @@ std::vector<Cycle> false_cycles(const TriangleMesh& mesh, const CornerTable& tab
     if (!has_points) return false;
     const std::vector<Vec3> path = places_along(cycle, mesh);
     const LoopDisc disc = disc_of_loop(path);
+    if (is_beside_air(cycle, mesh, table, options.cloud)) return false;
     if (cycle.length > options.max_girth && !is_filled(*options.cloud.cloud, path, disc))
       return true;
     return cycle.length > kLeastHole * options.cloud.pixel_size &&

@@ -114,6 +114,28 @@ TEST_CASE(
   CHECK(cut_thin_handles(cut, {.max_girth = 1.05 * kGirth, .cloud = {&around, kH}}) == 1);
 }
 
+TEST_CASE("a tunnel is closed that leads through a wall where no points are") {
+  constexpr double kHole = 0.2;  // half as wide
+  constexpr double kAround = 2.0 * std::numbers::pi * kHole;
+  constexpr double kH = kAround / 7.0;
+  const TriangleSoup soup = shapes::torus(1.0, 1.0 - kHole);
+  const ThinHandleOptions options{.max_girth = 0.8 * kAround, .filled_girth = 1.3 * kAround};
+  const Box region{Vec3(-2.5), Vec3(2.5)};
+  std::vector<Vec3> points = shapes::to_points(shapes::sampled(soup, 100'000));
+  const PointGrid all(points, region, kH);
+  TriangleMesh mesh = shapes::to_mesh(soup);
+  ThinHandleOptions with_points = options;
+  with_points.cloud = {&all, kH};
+  CHECK(cut_thin_handles(mesh, with_points) == 0);
+  std::erase_if(points,
+                [](const Vec3& p) { return std::hypot(p.x, p.y) < 0.5 && std::abs(p.z) < 0.4; });
+  const PointGrid outside(points, region, kH);
+  ThinHandleOptions without = options;
+  without.cloud = {&outside, kH};
+  CHECK(cut_thin_handles(mesh, without) == 1);
+  CHECK(genus_of(closed(std::move(mesh))) == 0);
+}
+
 TEST_CASE("the ends of an open tube make no handle of it, nor do bodies without any") {
   constexpr std::array<Vec2, 3> kProfile{Vec2{kThin, 0.0}, Vec2{kThin, 0.1}, Vec2{kThin, 0.2}};
   TriangleMesh tube = shapes::to_mesh(shapes::revolved(kProfile, false));
