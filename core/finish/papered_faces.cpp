@@ -19,6 +19,7 @@ constexpr double kFirstStep = 1.0;
 constexpr double kStep = 0.5;       ///< in h
 constexpr double kReach = 0.75;     ///< in h: points so near to a step are met
 constexpr double kLeastArea = 3.0;  ///< in square h
+constexpr double kNarrow = 1.0;     ///< in h: the width of cracks that are closed again
 constexpr std::size_t kGrain = 256;
 
 /// Where points lie behind a face.
@@ -37,6 +38,12 @@ std::optional<Vec3> place_behind(const Vec3& center, const Vec3& normal, const P
     if (!cloud.has_point_within(place, kReach * h)) continue;
     return step > 0 ? std::optional(place) : std::nullopt;
   }
+}
+
+/// Whether a hole in place of the piece would be closed again.
+bool is_small(const FlaggedPiece& piece, double least_rim, double h) {
+  const double width = 2.0 * piece.area / piece.rim;  // of a long one
+  return piece.rim <= least_rim || width < kNarrow * h;
 }
 
 /// Those of the faces that no point supports.
@@ -81,10 +88,12 @@ std::vector<std::uint8_t> papered_faces(const TriangleMesh& mesh, const PointGri
 }
 
 std::size_t drop_papered_faces(TriangleMesh& mesh, const PointGrid& cloud, const SeenPoints& seen,
-                               double pixel_size, double least_rim) {
+                               double pixel_size, std::optional<double> least_rim) {
   std::vector<std::uint8_t> is_papered = papered_faces(mesh, cloud, seen, pixel_size);
   if (is_papered.empty()) return 0;
-  keep_pieces(mesh, is_papered, [&](const FlaggedPiece& piece) { return piece.rim > least_rim; });
+  keep_pieces(mesh, is_papered, [&](const FlaggedPiece& piece) {
+    return !least_rim || !is_small(piece, *least_rim, pixel_size);
+  });
   const std::size_t before = mesh.triangles.size();
   remove_triangles(mesh.triangles, is_papered);
   if (mesh.triangles.size() < before) clean_topology(mesh);

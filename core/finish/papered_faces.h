@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/finish/point_grid.h"
@@ -28,9 +29,10 @@ namespace rangezip {
                                                       const PointGrid& cloud,
                                                       const SeenPoints& seen, double pixel_size);
 
-/// Drops such faces, but for those that hang together with a rim up to `least_rim` (model units):
-/// a hole that would be closed again. The mesh stays oriented and manifold. @return how many went
+/// Drops such faces, but for holes that would be closed again: if there is a `least_rim` (model
+/// units), those that hang together with a rim up to that, or less than a pixel side wide. The mesh
+/// stays oriented and manifold. @return how many went
 std::size_t drop_papered_faces(TriangleMesh& mesh, const PointGrid& cloud, const SeenPoints& seen,
-                               double pixel_size, double least_rim = 0.0);
+                               double pixel_size, std::optional<double> least_rim = {});
 
 }  // namespace rangezip

@@ -169,6 +169,21 @@ TEST_CASE("papered faces go, unless a hole of under two pixels is all that they 
   CHECK(report.boundary_loops == 1);
 }
 
+TEST_CASE("of papered faces a crack is left as it is, however long", "[finish]") {
+  const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
+  CAPTURE(seed);
+  std::mt19937_64 engine(seed);
+  const Cloud cloud = cube_with_pocket(engine);
+  // A strip of eight squares over the middle of the pocket, 8 h^2 and 18 h around: 0.9 h wide.
+  TriangleMesh strip = closed_cube();
+  testing::cut_where(strip, [](const Vec3& p) {
+    return p.z > kHalf - 0.1 && (p.x < -4.1 || p.x > 4.1 || p.y < -0.1 || p.y > 1.1);
+  });
+  TriangleMesh dropped = strip;
+  CHECK(drop_papered_faces(strip, grid_of(cloud), cloud.seen(), kH, 12.0 * kH) == 0);
+  CHECK(drop_papered_faces(dropped, grid_of(cloud), cloud.seen(), kH) >= 6);
+}
+
 TEST_CASE("the finish closes no pocket that points look out of", "[finish]") {
   const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
   CAPTURE(seed);
