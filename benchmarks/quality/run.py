@@ -267,6 +267,8 @@ CASES = [
     body('contours', 1),
     body('density', 0, [Bound('accuracy_rms', '<=', 0.0001, True)]),
     body('density-bumps', 0, [Bound('dense_over_sparse', '<=', 0.5), Bound('accuracy_rms', '<=', 0.00015, True)]),
+    # Of a density that falls to a tenth: what an even cloud shows with walls of 4 h.
+    *(body(f'vase {thickness}', 0, [Bound('cloud_within_05', '>=', 0.998)]) for thickness in (4, 6)),
     made('fingers', [Bound('components', '==', 1), Bound('false_handles', '==', 0)]),
 ]
 

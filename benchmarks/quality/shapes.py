@@ -56,6 +56,15 @@ def bell(waist=43.0, rim=84.0, height=78.0, steps=200):
     return revolved(np.r_[radius, top], np.r_[z, np.full(len(top), height)], closed=False)
 
 
+def vase(thickness, height=110.0, steps=150):
+    """A vase with a wall of one thickness, open above: its inside is seen through the mouth only."""
+    z = np.linspace(0, height, steps)
+    outer = 42 + 10 * np.sin(z / 22)
+    inside = z[z > thickness][::-1]
+    inner = 42 + 10 * np.sin(inside / 22) - thickness
+    return revolved(np.r_[0, outer, inner, 0], np.r_[0, z, inside, inside[-1]], closed=False)
+
+
 def without_collapsed(faces):
     return faces[(faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])]
 
@@ -271,6 +280,15 @@ def two_densities(surface, count, seed):
     return Shape(vertices @ turn().T, faces, points @ turn().T, dense_side=turn()[:, 0])
 
 
+def falling_density(surface, ratio, seed, genus=0):
+    """The points of an even cloud, but from one side to the other of a density that falls by so much, evenly."""
+    vertices, faces = surface
+    vertices = vertices @ turn().T
+    x = vertices[faces].mean(axis=1)[:, 0]
+    weight = ratio ** ((x - x.min()) / np.ptp(x))
+    return Shape(vertices, faces, sample(vertices, faces, points_for(vertices, faces), seed, weight), genus)
+
+
 def contours(surface, step, along, seed, genus=0):
     """Points on level lines only, `step` apart, dense along them by `along`."""
     vertices, faces = surface
@@ -392,6 +410,7 @@ def make(name, seed=None):
         'contours': lambda: contours(torus(50, 20), 3.0, 0.5, 11, genus=1),
         'density': lambda: two_densities(box(100, 100, 100), 200_000, 12),
         'density-bumps': lambda: two_densities(bumpy_sphere(60, 6, 6), 200_000, 13),
+        'vase': lambda: falling_density(vase(size), 10.0, 26 if seed is None else seed),
         'fingers': lambda: cloud(fingers_and_folds(), 14, genus=FINGER_WINDOWS, count=400_000),
     }
     return makers[kind]()
@@ -406,4 +425,4 @@ NAMES = (['sphere', 'torus', 'trefoil'] + [f'{thing}{noise}' for thing in ('bell
          [f'perforated {width}' for width in (6, 8, 16)] +
          [f'{sharp} {angle}' for sharp in ('lens', 'star') for angle in (15, 25, 40)] +
          ['noisy %g' % n for n in (0.05, 0.1, 0.2)] +
-         ['contours', 'density', 'density-bumps', 'fingers'])
+         ['contours', 'density', 'density-bumps', 'vase 4', 'vase 6', 'fingers'])

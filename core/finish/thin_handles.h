@@ -31,9 +31,9 @@ struct ThinHandleOptions {
 /// as densely as along them: around a limb, or a hole that leads through, there is nothing within.
 /// So are those beside which a ring of faces, the first, second or third one, lies in the air but
 /// for a quarter (kCloseSupport), as in a tunnel through a wall that a gap in the points has made.
-/// Any other path of over 3.5 h stays if it leads around a hole that points show: where 55 % of the faces
-/// along it look at its axis (with a cosine of 0.3) and have a point within 0.6 h, or one spacing.
-/// A hole of 2 h is 8 h around, but coarse faces that cut its corners are less.
+/// Any other path of over 3.5 h stays if it leads around a hole that points show: where 55 % of the
+/// faces along it look at its axis (with a cosine of 0.3) and have a point within 0.6 h, or one
+/// spacing. A hole of 2 h is 8 h around, but coarse faces that cut its corners are less.
 /// @return how many paths were cut; call it again after closing the holes until none is
 /// @throws Cancelled if `progress` says so.
 /// @pre oriented and manifold
