@@ -28,6 +28,8 @@ constexpr double kFinestOfSpacing = 0.25;
 /// Of pixels than the edges of a mesh with fewer triangles, at most: scans of up to 64 times as
 /// many show all that such a mesh can, and finer ones take longer.
 constexpr double kFinerThanMesh = 8.0;
+/// Times the side of the triangles asked for, a little less than what the finish can still split.
+constexpr double kSplitByFinish = 3.5;
 constexpr int kImageMargin = 16;  ///< pixels that framing and rounding may add
 
 double pixel_size_for(double area, std::size_t triangles,
@@ -77,8 +79,9 @@ double demanded_pixel_size(const Scene& scene, std::span<const Vec3> samples,
   const double demanded = pixel_size_for(area, *triangles, excess * per_pixel_area);
   const double finest = is_remeshed ? demanded / kFinerThanMesh : demanded;
   const double suitable = std::min(demanded, std::max(own, finest));
+  if (!spacing || !is_uneven(*spacing) || !is_remeshed) return suitable;
   // Finer pixels would show nothing where points are sparse, and the median tells no area then.
-  return spacing && is_uneven(*spacing) ? std::max(suitable, own) : suitable;
+  return std::max(suitable, std::min(own, kSplitByFinish * demanded));
 }
 
 }  // namespace

@@ -24,8 +24,9 @@ struct Resolution {
 /// for polygons only so that they get about 100 K triangles; finer if `triangles` are more than
 /// that gives. For fewer, the scans stay finer than the mesh that is made of them, down to an
 /// eighth of the pixel side, if that mesh `is_remeshed`; else the pixel is as large as the
-/// triangles demand. Of an uneven cloud it is never finer than its own. Never so fine that an image
-/// outgrows the rasterizer.
+/// triangles demand. Of an uneven cloud, if that mesh `is_remeshed`, it is no finer than its own,
+/// unless the finish could not split its faces into so many. Never so fine that an image outgrows
+/// the rasterizer.
 /// @param samples the points of the scene, in its order, then area samples of its polygons
 /// @param excess how many times as many triangles as `triangles` are expected to come of the pixels
 ///     that this chooses; 1: unknown

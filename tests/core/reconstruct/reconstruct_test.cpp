@@ -427,3 +427,15 @@ TEST_CASE("an uneven cloud loses nothing of its sparse part for the sake of many
   CHECK(static_cast<double>(result.mesh.triangles.size()) ==
         Approx(static_cast<double>(wanted)).epsilon(0.05));
 }
+
+TEST_CASE("an uneven cloud gives the triangles asked for where its own pixels are too coarse") {
+  const auto [wanted, finish] = GENERATE(table<std::size_t, FinishMethod>(
+      {{600'000, FinishMethod::full},    // more than the finish splits its faces into
+       {60'000, FinishMethod::fast}}));  // which splits no face
+  CAPTURE(wanted);
+  const ReconstructResult result =
+      run(scene_of(wavy_sphere(2)), {.triangles = wanted, .finish = finish});
+  check_clean(result);
+  CHECK(static_cast<double>(result.mesh.triangles.size()) ==
+        Approx(static_cast<double>(wanted)).epsilon(0.05));
+}
