@@ -92,6 +92,12 @@ std::vector<Triangle> CornerTable::triangles() const {
   return kept;
 }
 
+std::uint32_t CornerTable::half_edge(std::uint32_t from, std::uint32_t to) const {
+  std::uint32_t found = kNone;
+  for_each_corner(from, [&](std::uint32_t c) { found = head(c) == to ? c : found; });
+  return found;
+}
+
 bool CornerTable::are_neighbors(std::uint32_t a, std::uint32_t b) const {
   const std::uint32_t first = corner_of_[a];
   for (std::uint32_t c = first; c != kNone;) {

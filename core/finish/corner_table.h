@@ -88,6 +88,8 @@ class CornerTable {
     });
     if (last != kNone && across_[last] == kNone) visit(vertices_[last]);
   }
+  /// The half-edge from a vertex to a neighbour; kNone if no face has it.
+  [[nodiscard]] std::uint32_t half_edge(std::uint32_t from, std::uint32_t to) const;
   [[nodiscard]] bool are_neighbors(std::uint32_t a, std::uint32_t b) const;
 
   /// Whether the edge of this half-edge may turn: it has two faces, and their outer corners are

@@ -382,10 +382,7 @@ class Reacher {
       if (glm::length(at(w) - at(v)) > kLongEdge * options_.edge) far.push_back(w);
     });
     for (const std::uint32_t w : far) {
-      std::uint32_t corner = kNone;
-      table_.for_each_corner(v, [&](std::uint32_t c) {
-        if (table_.head(c) == w) corner = c;
-      });
+      const std::uint32_t corner = table_.half_edge(v, w);
       if (corner == kNone || table_.across(corner) == kNone) continue;
       table_.split_edge(corner);
       positions_.push_back(0.5 * (at(v) + at(w)));

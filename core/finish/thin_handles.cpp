@@ -364,13 +364,6 @@ bool is_around_hole(const Cycle& cycle, const LoopDisc& disc, const TriangleMesh
   return static_cast<double>(shown) >= kLeastShare * static_cast<double>(faces.size());
 }
 
-/// The half-edge from a vertex to a neighbour, kNone if there is none with a face.
-std::uint32_t half_edge(const CornerTable& table, std::uint32_t from, std::uint32_t to) {
-  std::uint32_t found = CornerTable::kNone;
-  table.for_each_corner(from, [&](std::uint32_t c) { found = table.head(c) == to ? c : found; });
-  return found;
-}
-
 /// The faces on the left of a path, then those behind them, and so on: rings that are parted from
 /// the other side by the path. Faces of earlier rings are in no later one.
 std::vector<std::vector<std::uint32_t>> rings_beside(const std::vector<std::uint32_t>& path,
@@ -378,7 +371,7 @@ std::vector<std::vector<std::uint32_t>> rings_beside(const std::vector<std::uint
   std::vector<std::vector<std::uint32_t>> rings(count);
   std::set<std::uint32_t> known;  // and those across the path
   for (std::size_t i = 0; i < path.size(); ++i) {
-    const std::uint32_t c = half_edge(table, path[i], path[(i + 1) % path.size()]);
+    const std::uint32_t c = table.half_edge(path[i], path[(i + 1) % path.size()]);
     if (c == CornerTable::kNone) continue;
     if (table.across(c) != CornerTable::kNone) known.insert(table.across(c) / 3);
     rings[0].push_back(c / 3);
