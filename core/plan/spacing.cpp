@@ -13,6 +13,7 @@
 #include "core/base/symmetric_eigen.h"
 #include "core/plan/cloud_noise.h"
 #include "core/plan/own_sheet.h"
+#include "core/plan/places_over_surface.h"
 #include "core/plan/slab_index.h"
 
 namespace rangezip {
@@ -30,6 +31,12 @@ constexpr double kPixelsPerNoise = 2.5;
 constexpr double kUsual = 1.5;
 /// Of the spacing: an outlier's distance from its neighbours' plane is half of it.
 constexpr double kOnPlane = 0.25;
+/// The same where places are spread over the surface, and an outlier stands for no more of it than
+/// others: a sparse scan may be noisy. Points all over a space have 0.7.
+constexpr double kOnNoisyPlane = 0.45;
+/// Of those places: more would be outliers that look like surface, where one in twenty points is
+/// one.
+constexpr double kShareOfPlaces = 0.75;
 /// Of the distance to the farthest neighbour: so far is the middle of an outlier's, where those are
 /// a spot of the surface that it lies off. At the corner of a square sheet it is 0.6.
 constexpr double kAside = 0.75;
@@ -54,6 +61,12 @@ constexpr double kUsualGaps = 2.0;
 double squared_distance(const Vec3& a, const Vec3& b) {
   const Vec3 d = a - b;
   return glm::dot(d, d);
+}
+
+double quantile(std::vector<double> values, double share) {
+  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
 }
 
 /// The nearest distinct places around one point, nearest first.
@@ -125,6 +138,13 @@ std::vector<Neighbourhood> choose_queries(std::span<const Vec3> points) {
   });
   centers.erase(std::unique(centers.begin(), centers.end()), centers.end());
   return {centers.begin(), centers.end()};
+}
+
+/// The same of places spread over the surface: of a scan that is far sparser than another one
+/// beside it a share of all points has hardly any.
+std::vector<Neighbourhood> choose_places(std::span<const Vec3> points, const Box& box) {
+  const std::vector<Vec3> places = places_over_surface(points, box, kQueries);
+  return {places.begin(), places.end()};
 }
 
 /// Fills the neighbourhoods: a first look at few points bounds their radii, then each of all
@@ -238,6 +258,22 @@ bool is_off_plane(const Neighbourhood& neighbourhood, double noise) {
   return distance_from_plane(offsets, kNoWall) > most;
 }
 
+/// The spacing that most of the places spread over the surface do not exceed; `median` if none of
+/// them is on it.
+double spacing_of_most(std::span<const Neighbourhood> places, double median) {
+  constexpr double kNoWall = std::numeric_limits<double>::infinity();
+  std::vector<double> spacings;
+  for (const Neighbourhood& place : places) {
+    const double spacing = spacing_of(place);
+    const bool is_usual = spacing <= kUsual * median;
+    const auto offsets = offsets_of(place, place.places().size());
+    if (is_usual ||
+        (!is_aside(place) && distance_from_plane(offsets, kNoWall) <= kOnNoisyPlane * spacing))
+      spacings.push_back(spacing);
+  }
+  return spacings.empty() ? median : quantile(std::move(spacings), kShareOfPlaces);
+}
+
 /// Whether a point lies off the surface, where usual spacings are about the median.
 bool is_outlier(const Neighbourhood& neighbourhood, double noise, double median) {
   return spacing_of(neighbourhood) > kUsual * median &&
@@ -270,12 +306,6 @@ std::vector<double> noises_of(std::span<const NoisePlace> places) {
   return noises;
 }
 
-double quantile(std::vector<double> values, double share) {
-  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
-}
-
 /// Where most of the queries lie on contours, the spacing of those.
 std::optional<Spacing> contour_spacing(std::span<const Vec3> points,
                                        std::span<const Neighbourhood> queries) {
@@ -306,8 +336,14 @@ double size_for_noise(const Spacing& spacing) {
 
 Spacing estimate_spacing(std::span<const Vec3> points) {
   require_three_distinct(points);
-  std::vector<Neighbourhood> queries = choose_queries(points);
-  find_neighbours(points, queries);
+  const Box box = robust_bounds(points);
+  std::vector<Neighbourhood> asked = choose_queries(points);
+  const std::size_t count = asked.size();
+  const std::vector<Neighbourhood> chosen = choose_places(points, box);
+  asked.insert(asked.end(), chosen.begin(), chosen.end());
+  find_neighbours(points, asked);
+  const auto queries = std::span(asked).first(count),
+             over_surface = std::span(asked).subspan(count);
 
   std::vector<double> spacings;
   std::vector<NoisePlace> places;
@@ -317,12 +353,13 @@ Spacing estimate_spacing(std::span<const Vec3> points) {
   }
   const std::vector<double> noises = noises_of(places);
   Spacing spacing{.median = quantile(spacings, 0.5), .quantile75 = quantile(spacings, 0.75)};
-  spacing.sparse = quantile_of_surface(queries, noises, spacing.median, 0.9);
+  spacing.sparse = std::max(quantile_of_surface(queries, noises, spacing.median, 0.9),
+                            spacing_of_most(over_surface, spacing.median));
   if (const auto contours = contour_spacing(points, queries)) spacing = *contours;
   spacing.near_noise = quantile(noises, 0.5);
   widen_over_noise(points, places);
   spacing.noise = quantile(noises_of(places), 0.5);
-  spacing.diagonal = robust_bounds(points).diagonal();
+  spacing.diagonal = box.diagonal();
   return spacing;
 }
 

@@ -13,7 +13,7 @@ namespace rangezip {
 struct Spacing {
   double median = 0.0;      ///< 1 / sqrt(density), model units
   double quantile75 = 0.0;  ///< three quarters of the cloud are at least this dense
-  double sparse = 0.0;      ///< nine tenths of the surface are at least this dense
+  double sparse = 0.0;      ///< nine tenths of the surface are at least this dense, about
   double gap = 0.0;         ///< between contours, if the cloud is made of such; else 0
   double near_noise = 0.0;  ///< median distance (RMS) of points from their neighbours' plane
   double noise = 0.0;       ///< the same of all points as near as the noise is wide
@@ -23,10 +23,13 @@ struct Spacing {
 /// Estimates the spacing from the distance to the 16th neighbour of up to 300 points spread evenly
 /// over the cloud: d16 * sqrt(pi / 16), that is, as if those 16 filled a disc. Points at exactly
 /// one place count once, both as neighbours and as the points that are asked about. Exact
-/// neighbours by a scan over all points that asks few of the 300 per point: O(points), 30 ns each.
+/// neighbours by a scan over all points that asks few of these per point: O(points), 50 ns each.
 /// Where points are sparse each of them stands for more of the surface: for as much as its squared
 /// spacing; one off the surface, as outliers are, stands for none, nor does the sparsest one in a
-/// hundred, which may be an outlier that nothing tells.
+/// hundred, which may be an outlier that nothing tells. Of a scan that is far sparser than another
+/// one beside it those 300 hold too few: 300 more are spread over the surface
+/// (core/plan/places_over_surface.h), each of which stands for as much of it, and a quarter of them
+/// that is sparser tells as much as a tenth of the surface does.
 /// A cloud of contours, points dense along slices that are far apart, is told by neighbours that
 /// lie on a line: of more than half of those 300 the nearest five do. Its gap is the mean of median
 /// and 75 % quantile of how far the slices on both sides are, the farther one, but at most twice as

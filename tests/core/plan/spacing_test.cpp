@@ -67,6 +67,24 @@ TEST_CASE("a pixel is chosen for the sparse part of an uneven cloud, not for out
   CHECK(pixel_size_from_spacing(even) == Approx(2.2 * expected).epsilon(0.05));
 }
 
+TEST_CASE("a pixel is chosen for a scan beside a far denser one, noisy or not") {
+  // On as much surface, one point of 65, of which 300 points spread over the cloud have five.
+  const double noise = GENERATE(0.0, 0.25);  // of its spacing
+  const std::uint64_t seed = GENERATE(range<std::uint64_t>(1, 4));
+  CAPTURE(noise, seed);
+  shapes::Random random(seed);
+  std::vector<Vec3> points = lattice(400, 1.0);
+  for (const Vec3& p : lattice(50, 8.0)) {
+    const double height = noise * 8.0 * std::sqrt(12.0) * (random.unit() - 0.5);
+    points.push_back(p - Vec3(500.0, 0.0, height));
+  }
+  const Spacing spacing = estimate_spacing(points);
+  const double expected = std::sqrt(5.0 * std::numbers::pi / 16.0);
+  CHECK(spacing.median == Approx(expected));
+  CHECK(spacing.sparse == Approx(8.0 * expected).epsilon(0.1));
+  CHECK(is_uneven(spacing));
+}
+
 TEST_CASE("a cloud whose density falls evenly is given pixels for its sparse end") {
   const std::uint64_t seed = GENERATE(range<std::uint64_t>(1, 6));
   const double ratio = GENERATE(1.0, 5.0, 10.0);
