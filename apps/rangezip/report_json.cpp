@@ -75,6 +75,7 @@ Json json_of(const FinishReport& finish) {
           {"snapped_vertices", finish.snapped_vertices},
           {"rim_moves", finish.rim_moves},
           {"regrown_faces", finish.regrown_faces},
+          {"grown_bodies", finish.grown_bodies},
           {"border_steps", finish.border_steps},
           {"small_angles", finish.small_angles},
           {"dropped_components", finish.dropped_components},

@@ -52,6 +52,13 @@ struct Box {
   friend bool operator==(const Box&, const Box&) = default;
 };
 
+/// A box that reaches so much farther on all sides.
+[[nodiscard]] inline Box widened(Box box, double margin) noexcept {
+  box.lower -= Vec3(margin);
+  box.upper += Vec3(margin);
+  return box;
+}
+
 /// Whether two boxes have a point in common.
 [[nodiscard]] inline bool boxes_meet(const Box& a, const Box& b) noexcept {
   return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y &&

@@ -10,13 +10,6 @@
 
 namespace rangezip {
 
-/// A box that reaches so much farther on all sides.
-[[nodiscard]] inline Box widened(Box box, double margin) noexcept {
-  box.lower -= Vec3(margin);
-  box.upper += Vec3(margin);
-  return box;
-}
-
 /// What has a box, by the cubes of a grid that the boxes meet.
 class BoxCubes {
  public:

@@ -17,9 +17,7 @@ Box box_around(const TriangleMesh& mesh, const std::vector<std::uint32_t>& verti
   Box box;
   for (const std::uint32_t v : vertices)
     box.add(mesh.positions[v]);
-  box.lower -= Vec3(margin);
-  box.upper += Vec3(margin);
-  return box;
+  return widened(box, margin);
 }
 
 /// The faces that come near a loop.

@@ -110,13 +110,6 @@ struct Scale {
   double edge = 0.0;  ///< length of edges, model units, where the size is one
 };
 
-Box region_of(const TriangleMesh& mesh, double margin) {
-  Box region = bounds_of(mesh);
-  region.lower -= Vec3(margin);
-  region.upper += Vec3(margin);
-  return region;
-}
-
 std::size_t count_loops(const TriangleMesh& mesh) {
   return boundary_loops(CornerTable(mesh.triangles, mesh.positions.size())).size();
 }
@@ -153,9 +146,13 @@ Pairs crossings_of(const TriangleMesh& mesh, const TriangleMesh* clean, const Pr
 }
 
 /// Grows over what no scan has reached.
-std::size_t grow(TriangleMesh& mesh, const Growth& growth, const RegrowOptions& grown) {
+void grow(TriangleMesh& mesh, const Growth& growth, const RegrowOptions& grown,
+          FinishReport& report) {
   const auto& [given, cloud, points, options, progress] = growth;
-  return options.regrow ? regrow(mesh, cloud, points, grown, progress) : 0;
+  if (!options.regrow) return;
+  const RegrowReport regrown = regrow(mesh, cloud, points, grown, progress);
+  report.regrown_faces += regrown.faces;
+  report.grown_bodies += regrown.bodies;
 }
 
 /// Closes what growing has left open. Of an open sheet comes back what all that leaves out.
@@ -199,7 +196,7 @@ void grow_again(TriangleMesh& mesh, const Growth& growth, RegrowOptions grown,
     grown.left_out = &lack_before.points;
     const TriangleMesh clean = mesh;
     const FinishReport before = report;
-    const std::size_t regrown = grow(mesh, growth, grown);
+    grow(mesh, growth, grown, report);
     const FaceChanges changes = find_face_changes(clean, mesh);
     if (changes.made.empty() && changes.gone.empty()) return;
     close_grown(mesh, clean, self_intersections(mesh, changes.made, {}, progress), growth, report);
@@ -210,7 +207,6 @@ void grow_again(TriangleMesh& mesh, const Growth& growth, RegrowOptions grown,
       return;
     }
     lack_before = std::move(lack);
-    report.regrown_faces += regrown;
   }
 }
 
@@ -224,7 +220,7 @@ void grow_and_close(TriangleMesh& mesh, const Growth& growth, double in_the_way,
                             .only_outwards = !options.narrow_gaps,
                             .is_body = !options.open_sheet};
   const TriangleMesh start = options.open_sheet ? mesh : TriangleMesh{};
-  report.regrown_faces += grow(mesh, growth, grown);
+  grow(mesh, growth, grown, report);
   close_grown(mesh, start, crossings_of(mesh, growth.clean, growth.progress), growth, report);
   if (options.regrow) grow_again(mesh, growth, grown, report);
 }
@@ -238,7 +234,7 @@ void grow_in_one(TriangleMesh& mesh, const Growth& growth, FinishReport& report)
   if (report.regrown_faces == 0 || growth.options.open_sheet) return;
   const std::size_t scrap = growth.options.min_component;
   const std::size_t parts = count_components(mesh, scrap);
-  if (parts <= count_components(start, scrap)) return;
+  if (parts <= count_components(start, scrap) + report.grown_bodies) return;
   TriangleMesh again = std::move(start);
   FinishReport report_again = before;
   grow_and_close(again, growth, kFarInTheWay, report_again);
@@ -464,7 +460,7 @@ FinishResult finish(TriangleMesh mesh, const SeenPoints& cloud, const FinishOpti
   const double h = options.pixel_size;
   std::optional<TriangleMesh> given;
   if (options.is_clean) given = geometry_of(mesh);
-  PointGrid points(cloud.points, region_of(mesh, kRegionMargin * h), kPointCell * h);
+  PointGrid points(cloud.points, widened(bounds_of(mesh), kRegionMargin * h), kPointCell * h);
   clean_topology(mesh);
   result.report.turned_pieces = orient_pieces(mesh, h);
   progress.check_stop();

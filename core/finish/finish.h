@@ -62,6 +62,7 @@ struct FinishReport {
   std::size_t snapped_vertices = 0;
   std::size_t rim_moves = 0;      ///< of vertices, out to where the cloud has points
   std::size_t regrown_faces = 0;  ///< over what no scan has reached
+  std::size_t grown_bodies = 0;   ///< of those: inside of others, or too small for scans
   std::size_t border_steps = 0;   ///< that brought the border out to the end of the cloud
   std::size_t small_angles = 0;   ///< faces with an angle under 10 degrees left, if not coarsened
   std::size_t turned_pieces = 0;  ///< that faced the wrong way

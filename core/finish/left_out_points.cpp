@@ -24,9 +24,7 @@ std::vector<Vec3> left_out_points(std::span<const Vec3> points, const std::vecto
                                   const TriangleMesh& mesh, double distance) {
   if (farther.empty() || mesh.empty()) return farther;
   const double radius = kSurroundings * distance;
-  Box region = bounds_of(mesh);  // what lies outside is left out as a whole
-  region.lower -= Vec3(radius);
-  region.upper += Vec3(radius);
+  const Box region = widened(bounds_of(mesh), radius);  // what lies outside is left out as a whole
   const PointGrid all(points, region, 0.5 * radius), missed(farther, region, 0.5 * radius);
   std::vector<std::uint8_t> is_left_out(farther.size(), 0);
   parallel_for(farther.size(), kPointsPerBlock, [&](std::size_t begin, std::size_t end) {

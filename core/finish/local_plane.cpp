@@ -30,7 +30,7 @@ std::optional<LocalPlane> plane_at(const Vec3& place, const PointGrid& cloud, do
   const Vec3 mean = sum / count;
   const SymmetricEigen eigen = eigen_of_symmetric(moments - glm::outerProduct(mean, sum));
   const Vec3 normal = eigen.vectors[0];
-  return LocalPlane{place + glm::dot(mean, normal) * normal,
+  return LocalPlane{place + glm::dot(mean, normal) * normal, normal, eigen.vectors[2],
                     std::sqrt(std::max(0.0, eigen.values[0]) / count)};
 }
 

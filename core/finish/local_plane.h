@@ -10,6 +10,8 @@ namespace rangezip {
 /// What the points around a place tell of the surface there.
 struct LocalPlane {
   Vec3 foot{0.0};          ///< of the place on the plane through them
+  Vec3 normal{0.0};        ///< of unit length, to one side or the other
+  Vec3 tangent{0.0};       ///< of unit length, in the plane
   double thickness = 0.0;  ///< RMS distance of the points from the plane, model units
 };
 

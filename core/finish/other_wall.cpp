@@ -51,9 +51,7 @@ Box box_around(const std::vector<Vec3>& places, double margin) {
   Box box;
   for (const Vec3& p : places)
     box.add(p);
-  box.lower -= Vec3(margin);
-  box.upper += Vec3(margin);
-  return box;
+  return widened(box, margin);
 }
 
 }  // namespace

@@ -48,9 +48,7 @@ bool is_small(const FlaggedPiece& piece, double least_rim, double h) {
 
 /// Those of the faces that no point supports.
 std::vector<Sight> sights_of(const TriangleMesh& mesh, const PointGrid& cloud, double h) {
-  Box region = bounds_of(mesh);
-  region.lower -= Vec3(h);
-  region.upper += Vec3(h);
+  const Box region = widened(bounds_of(mesh), h);
   std::vector<std::optional<Vec3>> places(mesh.triangles.size());
   parallel_for(places.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {

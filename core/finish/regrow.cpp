@@ -15,6 +15,7 @@
 #include "core/finish/corner_table.h"
 #include "core/finish/facing_inwards.h"
 #include "core/finish/flagged_pieces.h"
+#include "core/finish/grow_bodies.h"
 #include "core/finish/grow_over.h"
 #include "core/finish/inside_out.h"
 #include "core/finish/left_out_points.h"
@@ -57,11 +58,9 @@ constexpr std::size_t kGrain = 256;
 constexpr std::size_t kMinPiece = 12;
 constexpr std::size_t kMinPieceOfBodies = 40;
 
-Box region_of(const TriangleMesh& mesh, double h) {
-  Box region = bounds_of(mesh);
-  region.lower -= Vec3(kPart * h);
-  region.upper += Vec3(kPart * h);
-  return region;
+/// How far from the mesh points are left out.
+double left_out_by(double noise, double h) {
+  return std::max(kLeftOut * h, kLeftOutPerNoise * noise);
 }
 
 /// The centroid, the middles of the sides, and the corners.
@@ -121,7 +120,7 @@ void clear_way(TriangleMesh& mesh, std::span<const Vec3> off, const PointGrid& l
                const PointGrid& cloud, const RegrowOptions& options) {
   const double h = options.pixel_size;
   const double in_the_way = options.in_the_way * h;  // faces there are quickly made again
-  const PointGrid off_mesh(off, region_of(mesh, h), 0.5 * in_the_way);
+  const PointGrid off_mesh(off, widened(bounds_of(mesh), kPart * h), 0.5 * in_the_way);
   remove_triangles(mesh.triangles, flags_of(mesh.triangles.size(), [&](std::size_t f) {
                      const std::array<Vec3, 7> places = places_on(mesh, mesh.triangles[f]);
                      return left_out.has_point_within(places[0], kDoubted * h) &&
@@ -244,49 +243,82 @@ class OutwardGrowth {
   std::optional<VoteGrid> votes_;
 };
 
-}  // namespace
+/// In h, of circles without points that are closed where fronts have stopped; 0: of none.
+double void_radius_for(double spacing, double h) {
+  if (spacing <= kSparseSpacing * h) return 0.0;
+  return spacing > kVerySparseSpacing * h ? kVoidRadiusInVerySparse : kVoidRadius;
+}
 
-std::size_t regrow(TriangleMesh& mesh, const SeenPoints& seen, const PointGrid& grid,
-                   const RegrowOptions& options, const Progress& progress) {
+/// What is to be grown over.
+struct Gaps {
+  std::vector<Vec3> left_out;
+  double noise = 0.0;  ///< model units
+  bool is_noisy = false;
+};
+
+Gaps gaps_of(const TriangleMesh& mesh, std::span<const Vec3> points, const PointGrid& grid,
+             const RegrowOptions& options) {
   const double h = options.pixel_size;
-  const std::span<const Vec3> points = seen.points;
-  if (mesh.empty()) return 0;
-  const double noise = noise_of(points, grid, h);
-  if (noise > kMostNoise * h) return 0;
-  const double distance = std::max(kLeftOut * h, kLeftOutPerNoise * noise);
+  Gaps gaps{.noise = noise_of(points, grid, h)};
+  if (gaps.noise > kMostNoise * h) return gaps;
+  gaps.is_noisy = gaps.noise > kHardlyNoise * h;
+  const double distance = left_out_by(gaps.noise, h);
   const bool is_known = options.left_out != nullptr && distance == kLeftOut * h;
-  std::vector<Vec3> left_out =
-      is_known ? *options.left_out : left_out_points(points, mesh, distance);
-  const bool is_noisy = noise > kHardlyNoise * h;
-  if (is_noisy) {
-    smooth(left_out, grid, h);
-    left_out = points_off(left_out, mesh, distance);
+  gaps.left_out = is_known ? *options.left_out : left_out_points(points, mesh, distance);
+  if (gaps.is_noisy) {
+    smooth(gaps.left_out, grid, h);
+    gaps.left_out = points_off(gaps.left_out, mesh, distance);
   }
-  if (left_out.size() < kFewLeftOut) return 0;
-  progress.check_stop();
-  const PointGrid places(left_out, region_of(mesh, h), 0.5 * kPlace * h);
-  std::vector<Vec3> near = points_near(points, places, kPlace * h);
-  if (is_noisy) smooth(near, grid, h);
-  const double off_mesh = std::max(kOffMesh * h, kOffMeshPerNoise * noise);
+  return gaps;
+}
+
+/// Grows the border of the mesh over what it leaves out. @return faces that came
+std::size_t grow_border(TriangleMesh& mesh, const SeenPoints& seen, const PointGrid& grid,
+                        const Gaps& gaps, GrowOverOptions fronts, const RegrowOptions& options,
+                        const Progress& progress) {
+  const double h = options.pixel_size;
+  const PointGrid places(gaps.left_out, widened(bounds_of(mesh), kPart * h), 0.5 * kPlace * h);
+  std::vector<Vec3> near = points_near(seen.points, places, kPlace * h);
+  if (gaps.is_noisy) smooth(near, grid, h);
   drop_inside_out(mesh, seen, places, h);
-  clear_way(mesh, points_off(near, mesh, off_mesh), places, grid, options);
+  clear_way(mesh, points_off(near, mesh, fronts.off_mesh), places, grid, options);
   drop_shreds(mesh, seen.votes.empty() ? kMinPiece : kMinPieceOfBodies);
   FacePart part = part_near(mesh, places, kPart * h);
   progress.check_stop();
-  if (part.mesh.empty()) return 0;  // they are of another body, inside of this one
-  GrowOverOptions grow{.pixel_size = h, .off_mesh = off_mesh};
-  const double spacing = spacing_of(left_out, grid, h);
-  const bool is_sparse = spacing > kSparseSpacing * h;
-  const bool is_very_sparse = spacing > kVerySparseSpacing * h;
-  if (is_sparse) grow.void_radius = is_very_sparse ? kVoidRadiusInVerySparse : kVoidRadius;
-  OutwardGrowth outwards(mesh, part, near, seen, grow, progress);
+  if (part.mesh.empty()) return 0;  // they lie apart, and are of no body
+  OutwardGrowth outwards(mesh, part, near, seen, fronts, progress);
   std::size_t count = options.only_outwards ? outwards.run(options.is_body)
-                                            : grow_over(part.mesh, near, grow, progress);
-  if (is_sparse && !is_very_sparse)
-    count += restart_fronts(part.mesh, near, places, grow, progress);
+                                            : grow_over(part.mesh, near, fronts, progress);
+  if (fronts.void_radius == kVoidRadius)
+    count += restart_fronts(part.mesh, near, places, fronts, progress);
   put_back(std::move(part), mesh);
   clean_topology(mesh);
   return count;
+}
+
+}  // namespace
+
+RegrowReport regrow(TriangleMesh& mesh, const SeenPoints& seen, const PointGrid& grid,
+                    const RegrowOptions& options, const Progress& progress) {
+  const double h = options.pixel_size;
+  if (mesh.empty()) return {};
+  Gaps gaps = gaps_of(mesh, seen.points, grid, options);
+  if (gaps.left_out.size() < kFewLeftOut) return {};
+  progress.check_stop();
+  const GrowOverOptions fronts{
+      .pixel_size = h,
+      .off_mesh = std::max(kOffMesh * h, kOffMeshPerNoise * gaps.noise),
+      .void_radius = void_radius_for(spacing_of(gaps.left_out, grid, h), h)};
+  RegrowReport report;
+  if (options.is_body && !seen.votes.empty()) {
+    const GrownBodies grown = grow_bodies(mesh, gaps.left_out, seen, fronts, progress);
+    report = {grown.faces, grown.bodies};
+    if (grown.bodies > 0)
+      gaps.left_out = points_off(gaps.left_out, mesh, left_out_by(gaps.noise, h));
+    if (gaps.left_out.size() < kFewLeftOut) return report;
+  }
+  report.faces += grow_border(mesh, seen, grid, gaps, fronts, options, progress);
+  return report;
 }
 
 }  // namespace rangezip

@@ -31,8 +31,15 @@ struct RegrowOptions {
   const std::vector<Vec3>* left_out = nullptr;
 };
 
+struct RegrowReport {
+  std::size_t faces = 0;   ///< that came; 0 if nothing was to be done
+  std::size_t bodies = 0;  ///< that came, apart from all others
+};
+
 /// Grows a surface over places that no scan has reached: deep in slots and cavities, and where two
-/// surfaces are as near to each other as 2 h. Where points are left out
+/// surfaces are as near to each other as 2 h, and whole bodies inside of others
+/// (core/finish/grow_bodies.h), if it is of bodies whose points have votes: not of polygons, of
+/// which what lies inside is not to be seen. Where points are left out
 /// (core/finish/left_out_points.h, by more than 0.7 h, or three times the noise; 40 at least), what
 /// hides the way to them goes first: within 3 h of them faces in the air, whose centroid, corners
 /// or middles of sides have no point within 0.75 h or one spacing, faces within `in_the_way` of a
@@ -57,10 +64,9 @@ struct RegrowOptions {
 /// make are none. With over 0.3 h nothing is done, since what is left out is noise, too.
 /// @param seen the cloud; without votes no face is told by them
 /// @param grid of the same points
-/// @return faces that came; 0 if nothing was to be done
 /// @pre oriented, manifold; stays so. Faces that come cross none. Vertices keep their numbers, also
 ///     those that no face is left of.
-std::size_t regrow(TriangleMesh& mesh, const SeenPoints& seen, const PointGrid& grid,
-                   const RegrowOptions& options, const Progress& progress = {});
+RegrowReport regrow(TriangleMesh& mesh, const SeenPoints& seen, const PointGrid& grid,
+                    const RegrowOptions& options, const Progress& progress = {});
 
 }  // namespace rangezip

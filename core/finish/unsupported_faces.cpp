@@ -111,9 +111,7 @@ std::optional<double> spacing_near(const PointGrid& cloud, const Vec3& place, do
 std::size_t drop_unsupported_faces(TriangleMesh& mesh, std::span<const Vec3> cloud,
                                    double pixel_size) {
   if (cloud.empty() || mesh.empty()) return 0;
-  Box region = bounds_of(mesh);
-  region.lower -= Vec3(kFarthest * pixel_size);
-  region.upper += Vec3(kFarthest * pixel_size);
+  const Box region = widened(bounds_of(mesh), kFarthest * pixel_size);
   const PointGrid points(cloud, region, kFaceSupport.pixels * pixel_size);
   const double long_side = 2.0 * kFaceSupport.pixels * pixel_size;
   const std::size_t dropped = drop_faces(mesh, [&](const Triangle& face) {

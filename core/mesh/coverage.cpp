@@ -21,8 +21,7 @@ class FaceGrid {
       : mesh_(mesh), distance_(distance) {
     for (const Vec3& p : mesh.positions)
       bounds_.add(p);
-    bounds_.lower -= Vec3(distance);
-    bounds_.upper += Vec3(distance);
+    bounds_ = widened(bounds_, distance);
     choose_cells();
     mark_cells(points);
     list_faces();

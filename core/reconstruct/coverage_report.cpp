@@ -66,9 +66,7 @@ void report_uncovered(std::span<const Vec3> points, const std::vector<std::uint8
 
 /// The points around a mesh, sorted for looking within `radius`.
 PointGrid grid_for_faces(std::span<const Vec3> points, const TriangleMesh& mesh, double radius) {
-  Box region = bounds_of(mesh);
-  region.lower -= Vec3(radius);
-  region.upper += Vec3(radius);
+  const Box region = widened(bounds_of(mesh), radius);
   return {points, region, radius};
 }
 

@@ -43,9 +43,7 @@ double median(std::vector<double> values) {
 
 DensePlaces find_dense_places(std::span<const Vec3> points, const TriangleMesh& mesh,
                               double pixel_size, double noise) {
-  Box region = bounds_of(mesh);
-  region.lower -= Vec3(pixel_size);
-  region.upper += Vec3(pixel_size);
+  const Box region = widened(bounds_of(mesh), pixel_size);
   const PointGrid cloud(points, region, pixel_size);
   const ShareField sizes = local_sizes(mesh, cloud, pixel_size, noise);
   std::vector<Cube> dense;

@@ -122,9 +122,7 @@ PaperedHoles find_papered_holes(std::span<const Vec3> points, const TriangleMesh
                                 const PaperedHoleOptions& options) {
   if (mesh.empty() || points.empty()) return {};
   const double h = options.pixel_size;
-  Box region = bounds_of(mesh);
-  region.lower -= Vec3(kRegionMargin * h);
-  region.upper += Vec3(kRegionMargin * h);
+  const Box region = widened(bounds_of(mesh), kRegionMargin * h);
   const Faces bare =
       faces_without_points(mesh, PointGrid(points, region, kCloseSupport.pixels * h), h);
   if (bare.centers.empty()) return {};

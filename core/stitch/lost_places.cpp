@@ -137,8 +137,7 @@ class CellsNear {
   CellsNear(const std::vector<Vec3>& places, double distance) : is_near_(kCells, 0) {
     for (const Vec3& place : places)
       bounds_.add(place);
-    bounds_.lower -= Vec3(distance);
-    bounds_.upper += Vec3(distance);
+    bounds_ = widened(bounds_, distance);
     for (const Vec3& place : places) {
       for_each_cell({place - Vec3(distance), place + Vec3(distance)},
                     [&](std::size_t cell) { is_near_[cell] = 1; });

@@ -67,7 +67,7 @@ TEST_CASE("regrow covers what scans left out of two sheets two pixels apart, and
   append(mesh, frame(gap, 0.35 * kSide, true));
   REQUIRE(left_out_points(points, mesh, kH).size() > points.size() / 4);
 
-  REQUIRE(regrow(mesh, {points}, grid_of(points), {.pixel_size = kH}) > 0);
+  REQUIRE(regrow(mesh, {points}, grid_of(points), {.pixel_size = kH}).faces > 0);
 
   require_clean(mesh);
   CHECK(left_out_points(points, mesh, kH).empty());
@@ -96,7 +96,7 @@ TEST_CASE("nothing grows inside out from a piece whose points are seen from behi
   SeenPoints seen{.points = points};
   if (has_votes) seen.votes = votes;
 
-  REQUIRE(regrow(mesh, seen, grid_of(points), {.pixel_size = kH}) > 0);
+  REQUIRE(regrow(mesh, seen, grid_of(points), {.pixel_size = kH}).faces > 0);
 
   require_clean(mesh);
   CHECK(left_out_points(points, mesh, kH).empty());
@@ -130,7 +130,8 @@ TEST_CASE("nothing grows inwards on a body, even where nobody has seen the point
     std::swap(t[1], t[2]);
   append(mesh, scrap);
 
-  REQUIRE(regrow(mesh, {points}, grid_of(points), {.pixel_size = kH, .is_body = is_body}) > 0);
+  REQUIRE(regrow(mesh, {points}, grid_of(points), {.pixel_size = kH, .is_body = is_body}).faces >
+          0);
 
   require_clean(mesh);
   double inwards = -36.0;  // the scrap
@@ -188,7 +189,7 @@ TEST_CASE("regrow over noise of a fifth of a pixel makes faces that are flatter 
   constexpr double kHole = 0.35 * kSide;
   TriangleMesh mesh = frame(0.0, kHole, false);
   const std::size_t before = mesh.positions.size();
-  REQUIRE(regrow(mesh, {points}, grid_of(points), {.pixel_size = kH}) > 100);
+  REQUIRE(regrow(mesh, {points}, grid_of(points), {.pixel_size = kH}).faces > 100);
   require_clean(mesh);
   double squares = 0.0;
   for (std::size_t v = before; v < mesh.positions.size(); ++v)
@@ -233,7 +234,7 @@ TEST_CASE("regrow takes a membrane out of the middle of a gap, with what joins i
   REQUIRE(report_mesh(mesh).is_manifold());
   REQUIRE(report_mesh(mesh).components == 2);
 
-  REQUIRE(regrow(mesh, {points}, grid_of(points), {.pixel_size = kH}) > 0);
+  REQUIRE(regrow(mesh, {points}, grid_of(points), {.pixel_size = kH}).faces > 0);
   remove_unused_vertices(mesh);
 
   require_clean(mesh);
@@ -253,7 +254,7 @@ TEST_CASE("regrow leaves a hole that holds no points, and what lies far from poi
   std::erase_if(points, [](const Vec3& p) { return std::max(std::abs(p.x), std::abs(p.y)) < 6.0; });
   TriangleMesh mesh = frame(0.0, 6.0, false);
   const TriangleMesh before = mesh;
-  REQUIRE(regrow(mesh, {points}, grid_of(points), {.pixel_size = kH}) == 0);
+  REQUIRE(regrow(mesh, {points}, grid_of(points), {.pixel_size = kH}).faces == 0);
   CHECK(mesh.triangles == before.triangles);
   CHECK(mesh.positions == before.positions);
 }
@@ -272,8 +273,9 @@ TEST_CASE("regrow makes faces again that are in the way of points, as far around
   for (const Vec3& p : mesh.positions)
     rim = std::min(rim, std::max(std::abs(p.x), std::abs(p.y)));
 
-  REQUIRE(regrow(mesh, {points}, grid_of(points), {.pixel_size = kH, .in_the_way = in_the_way}) >
-          0);
+  REQUIRE(
+      regrow(mesh, {points}, grid_of(points), {.pixel_size = kH, .in_the_way = in_the_way}).faces >
+      0);
 
   require_clean(mesh);
   constexpr double kOffMesh = 0.42, kSpacing = 0.8;  // what the mesh shows; points next to a place
@@ -314,7 +316,7 @@ TEST_CASE(
     p.z = std::max(std::abs(p.x), std::abs(p.y)) < kHalf ? kH : 0.0;
   REQUIRE(left_out_points(points, mesh, 0.7 * kH).size() > 40);
   const TriangleMesh before = mesh;
-  REQUIRE(regrow(mesh, {points}, grid_of(points), {.pixel_size = kH}) == 0);
+  REQUIRE(regrow(mesh, {points}, grid_of(points), {.pixel_size = kH}).faces == 0);
   CHECK(mesh.triangles == before.triangles);
 }
 
@@ -327,7 +329,7 @@ TEST_CASE("regrow leaves points alone that lie far from any face", "[finish]") {
   TriangleMesh mesh = frame(0.0, 2.0, false);
   append(mesh, frame(0.8 * kSide, 2.0, true));
   const TriangleMesh before = mesh;
-  REQUIRE(regrow(mesh, {points}, grid_of(points), {.pixel_size = kH}) == 0);
+  REQUIRE(regrow(mesh, {points}, grid_of(points), {.pixel_size = kH}).faces == 0);
   CHECK(mesh.triangles == before.triangles);
 }
 
