@@ -6,6 +6,7 @@
 #include <random>
 
 #include "tests/core/finish/shapes.h"
+#include "tests/support/shapes.h"
 
 namespace rangezip {
 namespace {
@@ -38,6 +39,31 @@ TEST_CASE("layers behind the mesh that nothing shows are dropped, and nothing el
   std::vector<Vec3> expected = layers.samples;
   for (const double behind : {0.4, 1.0, 3.0})
     layers.add(1.0 - behind * kH, false);
+  REQUIRE(layers.samples.size() > expected.size());
+  drop_hidden_layers(layers.samples, layers.is_unseen, mesh, kH);
+  CHECK(layers.samples == expected);
+}
+
+TEST_CASE("where two walls go through each other, what of each lies inside of the other goes") {
+  TriangleMesh mesh = shapes::square_sheet(20);  // a floor for x > 0, and a wall that stands on it
+  for (Vec3& p : mesh.positions)
+    p = kH * (p.x < 0.0 ? Vec3{0.0, p.y, -p.x} : p);
+  Layers layers;
+  std::vector<Vec3> expected;
+  const auto add = [&](const Vec3& sample, bool is_seen) {
+    layers.samples.push_back(kH * sample);
+    layers.is_unseen.push_back(is_seen ? 0 : 1);
+    if (is_seen) expected.push_back(layers.samples.back());
+  };
+  for (double y = -7.0; y <= 7.0; y += 0.25) {
+    for (double along = 0.125; along <= 8.0; along += 0.25) {
+      add({along, y, 0.0}, true);
+      add({0.0, y, along}, true);
+      if (along < 0.3 || along > 3.0) continue;
+      add({-along, y, 0.0}, false);  // behind the wall
+      add({0.0, y, -along}, false);  // under the floor
+    }
+  }
   REQUIRE(layers.samples.size() > expected.size());
   drop_hidden_layers(layers.samples, layers.is_unseen, mesh, kH);
   CHECK(layers.samples == expected);
