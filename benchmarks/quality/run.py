@@ -269,6 +269,10 @@ CASES = [
     body('density-bumps', 0, [Bound('dense_over_sparse', '<=', 0.5), Bound('accuracy_rms', '<=', 0.00015, True)]),
     # Of a density that falls to a tenth: what an even cloud shows with walls of 4 h.
     *(body(f'vase {thickness}', 0, [Bound('cloud_within_05', '>=', 0.998)]) for thickness in (4, 6)),
+    made('nested', CLOSED, GOOD_ANGLES, [Bound('components', '==', 3), Bound('genus', '==', 1),
+                                         Bound('cloud_within_05', '>=', 0.998)]),
+    made('balls', CLOSED, [Bound('components', '==', 5), Bound('genus', '==', 0)]),
+    body('scans 8', 0, [Bound('cloud_within_05', '>=', 0.998), Bound('completeness_rms', '<=', 0.001, True)]),
     made('fingers', [Bound('components', '==', 1), Bound('false_handles', '==', 0)]),
 ]
 

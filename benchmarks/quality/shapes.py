@@ -272,11 +272,11 @@ def drawn(surface, seed, genus=0, noise=0.0, count=None):
     return Shape(vertices, faces, points, genus)
 
 
-def two_densities(surface, count, seed):
-    """Sixteen times as many points to the area where x > 0, before the turn."""
+def two_densities(surface, count, seed, ratio=16.0):
+    """So many times as many points to the area where x > 0, before the turn."""
     vertices, faces = surface
     right = vertices[faces].mean(axis=1)[:, 0] > 0
-    points = sample(vertices, faces, count, seed, np.where(right, 16.0, 1.0))
+    points = sample(vertices, faces, count, seed, np.where(right, ratio, 1.0))
     return Shape(vertices @ turn().T, faces, points @ turn().T, dense_side=turn()[:, 0])
 
 
@@ -323,6 +323,22 @@ def two_spheres(gap, radius=30.0):
     left, right = sphere(radius), sphere(radius)
     reach = radius + gap / 2
     return joined((left[0] - [reach, 0, 0], left[1]), (right[0] + [reach, 0, 0], right[1]))
+
+
+def nested():
+    """A hollow ball with a ring in it: no straight line from outside reaches the wall inside, nor the ring."""
+    hollow = sphere(40)
+    return joined(joined(sphere(60), (hollow[0], hollow[1][:, ::-1])), torus(18, 8))
+
+
+def balls(diameters=(5, 6, 8, 12)):
+    """Balls around a large one."""
+    surface = sphere(50)
+    for i, diameter in enumerate(diameters):
+        angle = 2 * np.pi * i / len(diameters)
+        ball = sphere(diameter / 2)
+        surface = joined(surface, (ball[0] + 65 * np.array([np.cos(angle), np.sin(angle), 0]), ball[1]))
+    return surface
 
 
 def slabs(gap, side=30.0, thickness=6.0):
@@ -411,6 +427,9 @@ def make(name, seed=None):
         'density': lambda: two_densities(box(100, 100, 100), 200_000, 12),
         'density-bumps': lambda: two_densities(bumpy_sphere(60, 6, 6), 200_000, 13),
         'vase': lambda: falling_density(vase(size), 10.0, 26 if seed is None else seed),
+        'nested': lambda: cloud(nested(), 27, genus=1),
+        'balls': lambda: cloud(balls(), 28),
+        'scans': lambda: two_densities(bumpy_sphere(60, 6, 6), 300_000, 29, size ** 2),
         'fingers': lambda: cloud(fingers_and_folds(), 14, genus=FINGER_WINDOWS, count=400_000),
     }
     return makers[kind]()
@@ -425,4 +444,4 @@ NAMES = (['sphere', 'torus', 'trefoil'] + [f'{thing}{noise}' for thing in ('bell
          [f'perforated {width}' for width in (6, 8, 16)] +
          [f'{sharp} {angle}' for sharp in ('lens', 'star') for angle in (15, 25, 40)] +
          ['noisy %g' % n for n in (0.05, 0.1, 0.2)] +
-         ['contours', 'density', 'density-bumps', 'vase 4', 'vase 6', 'fingers'])
+         ['contours', 'density', 'density-bumps', 'vase 4', 'vase 6', 'nested', 'balls', 'scans 8', 'fingers'])
