@@ -272,7 +272,7 @@ CASES = [
     made('nested', CLOSED, GOOD_ANGLES, [Bound('components', '==', 3), Bound('genus', '==', 1),
                                          Bound('cloud_within_05', '>=', 0.998)]),
     made('balls', CLOSED, [Bound('components', '==', 5), Bound('genus', '==', 0)]),
-    body('scans 8', 0, [Bound('cloud_within_05', '>=', 0.998), Bound('completeness_rms', '<=', 0.001, True)]),
+    body('scans 10', 0, [Bound('cloud_within_05', '>=', 0.998), Bound('completeness_rms', '<=', 0.001, True)]),
     made('fingers', [Bound('components', '==', 1), Bound('false_handles', '==', 0)]),
 ]
 

@@ -444,4 +444,4 @@ NAMES = (['sphere', 'torus', 'trefoil'] + [f'{thing}{noise}' for thing in ('bell
          [f'perforated {width}' for width in (6, 8, 16)] +
          [f'{sharp} {angle}' for sharp in ('lens', 'star') for angle in (15, 25, 40)] +
          ['noisy %g' % n for n in (0.05, 0.1, 0.2)] +
-         ['contours', 'density', 'density-bumps', 'vase 4', 'vase 6', 'nested', 'balls', 'scans 8', 'fingers'])
+         ['contours', 'density', 'density-bumps', 'vase 4', 'vase 6', 'nested', 'balls', 'scans 10', 'fingers'])
