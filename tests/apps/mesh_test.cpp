@@ -88,18 +88,38 @@ TEST_CASE("mesh says which step made a handle", "[apps]") {
   CHECK_THAT(result.out, Contains("handles   1: " + first + " +"));
 }
 
+/// 1,000 points about the centre of store_sphere(), where `place` puts those of a unit sphere, but
+/// a fifth as far.
+template <class Place>
+void store_in_sphere(const std::string& file, const Place& place) {
+  shapes::Random random(2);
+  std::ofstream inside(file);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 p = 0.2 * place(random.direction()) + Vec3{3.0, 0.0, 0.0};
+    inside << p.x << ' ' << p.y << ' ' << p.z << '\n';
+  }
+}
+
+TEST_CASE("mesh gives the wall of a closed cavity faces that no view reaches", "[apps]") {
+  const TemporaryFolder folder;
+  store_sphere(folder / "sphere.ply");
+  store_in_sphere(folder / "inside.xyz", [](const Vec3& p) { return p; });
+  const RunResult result =
+      mesh(folder, "out.ply", {folder / "inside.xyz", "--report", folder / "r.json"});
+  CAPTURE(result.err, result.out);
+  REQUIRE(result.code == 0);
+  const Json json = Json::parse(load(folder / "r.json"));
+  CHECK(json["mesh"]["components"] == 2);
+  CHECK(json["mesh"]["euler_number"] == 4);
+  CHECK(json["finish"]["grown_bodies"] == 1);
+  CHECK(json["coverage"] == 1.0);
+}
+
 TEST_CASE("mesh reports with its place what of the cloud no view reaches", "[apps]") {
   const TemporaryFolder folder;
   store_sphere(folder / "sphere.ply");
-  // A ball inside of the sphere, whose centre is (3, 0, 0).
-  {
-    shapes::Random random(2);
-    std::ofstream inside(folder / "inside.xyz");
-    for (int i = 0; i < 1000; ++i) {
-      const Vec3 p = 0.2 * random.direction() + Vec3{3.0, 0.0, 0.0};
-      inside << p.x << ' ' << p.y << ' ' << p.z << '\n';
-    }
-  }
+  // A disc inside of the sphere, whose centre is (3, 0, 0): a sheet, of which no side is outside.
+  store_in_sphere(folder / "inside.xyz", [](const Vec3& p) { return Vec3{p.x, p.y, 0.0}; });
   const RunResult result =
       mesh(folder, "out.ply", {folder / "inside.xyz", "--report", folder / "r.json"});
   CAPTURE(result.err, result.out);
