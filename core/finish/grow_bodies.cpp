@@ -131,6 +131,7 @@ std::vector<std::uint32_t> faces_to_ask(std::size_t begin, std::size_t end) {
 std::ptrdiff_t seen_in_front(const TriangleMesh& mesh, const std::vector<std::uint32_t>& faces,
                              const SeenPoints& seen, double h, std::size_t& told) {
   std::vector<Vec3> places;
+  places.reserve(faces.size());
   for (const std::uint32_t f : faces)
     places.push_back(centroid_of(mesh.positions, mesh.triangles[f]));
   const VoteGrid votes(seen, places, kOwnPoints * h);
