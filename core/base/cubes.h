@@ -15,12 +15,16 @@ namespace rangezip {
 /// A cube of an endless grid, by its place along each axis.
 using Cube = std::array<std::int64_t, 3>;
 
-/// The cube that a point lies in.
-/// @param side of the cubes, model units; positive, and no smaller than 10^-15 of a coordinate
+/// The cube that a point lies in; one of the outermost for points over 10^15 cubes away, as far
+/// outliers may be.
+/// @param side of the cubes, model units; positive
 [[nodiscard]] inline Cube cube_of(const Vec3& point, double side) noexcept {
-  return {static_cast<std::int64_t>(std::floor(point.x / side)),
-          static_cast<std::int64_t>(std::floor(point.y / side)),
-          static_cast<std::int64_t>(std::floor(point.z / side))};
+  const auto along = [side](double coordinate) {
+    constexpr double kOutermost = 1e15;
+    return static_cast<std::int64_t>(
+        std::clamp(std::floor(coordinate / side), -kOutermost, kOutermost));
+  };
+  return {along(point.x), along(point.y), along(point.z)};
 }
 
 /// For containers that hash.

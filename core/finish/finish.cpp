@@ -150,7 +150,7 @@ void grow(TriangleMesh& mesh, const Growth& growth, const RegrowOptions& grown,
           FinishReport& report) {
   const auto& [given, cloud, points, options, progress] = growth;
   if (!options.regrow) return;
-  const RegrowReport regrown = regrow(mesh, cloud, points, grown, progress);
+  const GrowthReport regrown = regrow(mesh, cloud, points, grown, progress);
   report.regrown_faces += regrown.faces;
   report.grown_bodies += regrown.bodies;
 }

@@ -16,6 +16,7 @@
 #include "core/finish/clean_topology.h"
 #include "core/finish/face_part.h"
 #include "core/finish/facing_inwards.h"
+#include "core/finish/left_out_points.h"
 #include "core/finish/local_plane.h"
 #include "core/finish/places_near.h"
 #include "core/finish/votes_near.h"
@@ -24,31 +25,36 @@
 namespace rangezip {
 namespace {
 
-constexpr double kApart = 1.4;  ///< in h, from the mesh: in the middle of a gap of 3 h
-constexpr double kLink = 1.3;   ///< in h, between points of one body
-constexpr std::size_t kFewPoints = 40;
+constexpr double kApart = 1.4;             ///< in h, from the mesh: in the middle of a gap of 3 h
+constexpr double kLink = 1.3;              ///< in h, between points of one body
+constexpr double kPile = 0.1;              ///< in h: points in cubes of that size hang together
 constexpr std::size_t kTriedPlaces = 100;  ///< of a body, for the front to start
 /// In h, RMS, of what lies around a place: of a ball 4 h across it is 0.12, of points all over a
 /// space 0.3 and more.
 constexpr double kThick = 0.25;
-constexpr double kStartRadius = 0.4;  ///< in h, of the circle through the first face's corners
-constexpr double kShown = 0.75;       ///< of the points of a body, at least
-/// In h: points as near to the mesh as that are shown.
-constexpr double kShownWithin = 0.7;
+constexpr double kStartRadius = 0.4;      ///< in h, of the circle through the first face's corners
+constexpr double kShown = 0.75;           ///< of the points of a body, at least
 constexpr double kNearlyClosed = 0.3;     ///< area vector over area
 constexpr double kOwnPoints = 0.75;       ///< in h: those of a face
 constexpr std::size_t kAskedFaces = 500;  ///< of a body, for where its front is
 
-/// Points in groups: those that links hold together.
-std::vector<std::vector<Vec3>> linked_groups(std::span<const Vec3> points, double link) {
-  std::unordered_map<Cube, std::vector<std::uint32_t>, CubeHash> points_in;
-  for (std::uint32_t i = 0; i < points.size(); ++i)
-    points_in[cube_of(points[i], link)].push_back(i);
+/// Points in groups: those that links hold together. Of each cube with sides of `pile` the first
+/// one is linked to others, and all to it.
+/// @pre pile is half of link at most
+std::vector<std::vector<Vec3>> linked_groups(std::span<const Vec3> points, double link,
+                                             double pile) {
+  const std::vector<std::uint32_t> first_of = firsts_of_cubes(points, pile);
+  std::unordered_map<Cube, std::vector<std::uint32_t>, CubeHash> firsts_in;
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (first_of[i] == i) firsts_in[cube_of(points[i], link)].push_back(i);
+  }
   DisjointSets sets(points.size());
   for (std::uint32_t i = 0; i < points.size(); ++i) {
+    sets.join(i, first_of[i]);
+    if (first_of[i] != i) continue;
     for_each_cube_around(cube_of(points[i], link), [&](const Cube& cube) {
-      const auto found = points_in.find(cube);
-      if (found == points_in.end()) return;
+      const auto found = firsts_in.find(cube);
+      if (found == firsts_in.end()) return;
       for (const std::uint32_t j : found->second) {
         if (j < i && glm::length(points[i] - points[j]) <= link) sets.join(i, j);
       }
@@ -70,10 +76,10 @@ std::vector<std::vector<Vec3>> linked_groups(std::span<const Vec3> points, doubl
 /// The groups of those that lie apart from the mesh as a whole.
 std::vector<std::vector<Vec3>> bodies_apart(std::span<const Vec3> left_out,
                                             const TriangleMesh& mesh, double h) {
-  if (points_off(left_out, mesh, kApart * h).size() < kFewPoints) return {};
-  std::vector<std::vector<Vec3>> groups = linked_groups(left_out, kLink * h);
+  if (points_off(left_out, mesh, kApart * h).size() < kFewLeftOut) return {};
+  std::vector<std::vector<Vec3>> groups = linked_groups(left_out, kLink * h, kPile * h);
   std::erase_if(groups, [&](const std::vector<Vec3>& group) {
-    return group.size() < kFewPoints || points_off(group, mesh, kApart * h).size() < group.size();
+    return group.size() < kFewLeftOut || points_off(group, mesh, kApart * h).size() < group.size();
   });
   return groups;
 }
@@ -113,7 +119,7 @@ bool is_nearly_closed(const TriangleMesh& mesh) {
 }
 
 bool is_body(const TriangleMesh& grown, const std::vector<Vec3>& points, double h) {
-  const double missing = static_cast<double>(points_off(points, grown, kShownWithin * h).size());
+  const double missing = static_cast<double>(points_off(points, grown, kLeftOut * h).size());
   if (missing > (1.0 - kShown) * static_cast<double>(points.size())) return false;
   return is_nearly_closed(grown);
 }
@@ -170,8 +176,8 @@ void append(TriangleMesh& mesh, TriangleMesh body) {
 
 }  // namespace
 
-GrownBodies grow_bodies(TriangleMesh& mesh, std::span<const Vec3> left_out, const SeenPoints& seen,
-                        const GrowOverOptions& options, const Progress& progress) {
+GrowthReport grow_bodies(TriangleMesh& mesh, std::span<const Vec3> left_out, const SeenPoints& seen,
+                         const GrowOverOptions& options, const Progress& progress) {
   const double h = options.pixel_size;
   std::vector<std::size_t> begins;  // of the bodies' faces
   const std::size_t begin = mesh.triangles.size();

@@ -10,9 +10,10 @@
 
 namespace rangezip {
 
-struct GrownBodies {
-  std::size_t faces = 0;  ///< the last ones of the mesh
-  std::size_t bodies = 0;
+/// What has come by growing.
+struct GrowthReport {
+  std::size_t faces = 0;   ///< 0 if nothing was to be done
+  std::size_t bodies = 0;  ///< apart from all others
 };
 
 /// Grows bodies that no scan has shown (own): the wall of a closed cavity, what lies inside of a
@@ -32,8 +33,9 @@ struct GrownBodies {
 /// @param left_out points that the mesh leaves out (core/finish/left_out_points.h)
 /// @param seen the cloud
 /// @param options of the fronts
-/// @pre oriented, manifold; stays so. Vertices keep their numbers.
-GrownBodies grow_bodies(TriangleMesh& mesh, std::span<const Vec3> left_out, const SeenPoints& seen,
-                        const GrowOverOptions& options, const Progress& progress = {});
+/// @pre oriented, manifold; stays so. Vertices keep their numbers, and faces: those that come are
+///     the last ones.
+GrowthReport grow_bodies(TriangleMesh& mesh, std::span<const Vec3> left_out, const SeenPoints& seen,
+                         const GrowOverOptions& options, const Progress& progress = {});
 
 }  // namespace rangezip

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -7,6 +8,11 @@
 #include "core/mesh/triangle_mesh.h"
 
 namespace rangezip {
+
+/// In h: how far from the mesh points are left out. A membrane in the middle of a gap of 2 h is 1 h
+/// from its walls.
+inline constexpr double kLeftOut = 0.7;
+inline constexpr std::size_t kFewLeftOut = 40;  ///< fewer do not matter
 
 /// The points of places that a mesh leaves out: those farther from it than `distance`, as are at
 /// least half of the points within twice that around them. The tails of noise, of which a few lie

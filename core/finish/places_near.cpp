@@ -1,5 +1,9 @@
 #include "core/finish/places_near.h"
 
+#include <unordered_map>
+
+#include "core/base/cubes.h"
+
 namespace rangezip {
 
 PointGrid grid_of(std::span<const Vec3> places, double cell) {
@@ -28,6 +32,14 @@ std::vector<Vec3> points_near(const PointGrid& cloud, const PointGrid& places, d
     if (flags[i] != 0) near.push_back(cloud.point(i));
   }
   return near;
+}
+
+std::vector<std::uint32_t> firsts_of_cubes(std::span<const Vec3> points, double side) {
+  std::unordered_map<Cube, std::uint32_t, CubeHash> firsts;
+  std::vector<std::uint32_t> first_of(points.size());
+  for (std::uint32_t i = 0; i < points.size(); ++i)
+    first_of[i] = firsts.try_emplace(cube_of(points[i], side), i).first->second;
+  return first_of;
 }
 
 FacePart part_near(const TriangleMesh& mesh, const PointGrid& places, double radius) {

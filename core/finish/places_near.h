@@ -36,6 +36,10 @@ template <class IsIn>
 [[nodiscard]] std::vector<Vec3> points_near(const PointGrid& cloud, const PointGrid& places,
                                             double radius);
 
+/// For each of the points the number of the first one that lies in the same cube.
+/// @param side of the cubes, model units, positive
+[[nodiscard]] std::vector<std::uint32_t> firsts_of_cubes(std::span<const Vec3> points, double side);
+
 /// The faces whose first corner lies within `radius` of one of the places.
 [[nodiscard]] FacePart part_near(const TriangleMesh& mesh, const PointGrid& places, double radius);
 

@@ -15,7 +15,6 @@
 #include "core/finish/corner_table.h"
 #include "core/finish/facing_inwards.h"
 #include "core/finish/flagged_pieces.h"
-#include "core/finish/grow_bodies.h"
 #include "core/finish/grow_over.h"
 #include "core/finish/inside_out.h"
 #include "core/finish/left_out_points.h"
@@ -298,7 +297,7 @@ std::size_t grow_border(TriangleMesh& mesh, const SeenPoints& seen, const PointG
 
 }  // namespace
 
-RegrowReport regrow(TriangleMesh& mesh, const SeenPoints& seen, const PointGrid& grid,
+GrowthReport regrow(TriangleMesh& mesh, const SeenPoints& seen, const PointGrid& grid,
                     const RegrowOptions& options, const Progress& progress) {
   const double h = options.pixel_size;
   if (mesh.empty()) return {};
@@ -309,11 +308,10 @@ RegrowReport regrow(TriangleMesh& mesh, const SeenPoints& seen, const PointGrid&
       .pixel_size = h,
       .off_mesh = std::max(kOffMesh * h, kOffMeshPerNoise * gaps.noise),
       .void_radius = void_radius_for(spacing_of(gaps.left_out, grid, h), h)};
-  RegrowReport report;
+  GrowthReport report;
   if (options.is_body && !seen.votes.empty()) {
-    const GrownBodies grown = grow_bodies(mesh, gaps.left_out, seen, fronts, progress);
-    report = {grown.faces, grown.bodies};
-    if (grown.bodies > 0)
+    report = grow_bodies(mesh, gaps.left_out, seen, fronts, progress);
+    if (report.bodies > 0)
       gaps.left_out = points_off(gaps.left_out, mesh, left_out_by(gaps.noise, h));
     if (gaps.left_out.size() < kFewLeftOut) return report;
   }

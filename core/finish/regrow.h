@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/progress.h"
+#include "core/finish/grow_bodies.h"
 #include "core/finish/point_grid.h"
 #include "core/finish/seen_points.h"
 #include "core/mesh/triangle_mesh.h"
@@ -15,11 +16,6 @@ namespace rangezip {
 inline constexpr double kSparseSpacing = 0.6;
 inline constexpr double kVerySparseSpacing = 0.9;
 
-/// In h: how far from the mesh points are left out. A membrane in the middle of a gap of 2 h is 1 h
-/// from its walls.
-inline constexpr double kLeftOut = 0.7;
-inline constexpr std::size_t kFewLeftOut = 40;  ///< fewer do not matter
-
 struct RegrowOptions {
   double pixel_size = 0.0;  ///< h, model units; positive
   double in_the_way = 0.9;  ///< in h: faces as near to a point that the mesh does not show go
@@ -29,11 +25,6 @@ struct RegrowOptions {
   bool is_body = true;  ///< not a sheet: faces have an outside and an inside
   /// left_out_points() of the mesh by kLeftOut, if they are known. Must outlive the call.
   const std::vector<Vec3>* left_out = nullptr;
-};
-
-struct RegrowReport {
-  std::size_t faces = 0;   ///< that came; 0 if nothing was to be done
-  std::size_t bodies = 0;  ///< that came, apart from all others
 };
 
 /// Grows a surface over places that no scan has reached: deep in slots and cavities, and where two
@@ -66,7 +57,7 @@ struct RegrowReport {
 /// @param grid of the same points
 /// @pre oriented, manifold; stays so. Faces that come cross none. Vertices keep their numbers, also
 ///     those that no face is left of.
-RegrowReport regrow(TriangleMesh& mesh, const SeenPoints& seen, const PointGrid& grid,
+GrowthReport regrow(TriangleMesh& mesh, const SeenPoints& seen, const PointGrid& grid,
                     const RegrowOptions& options, const Progress& progress = {});
 
 }  // namespace rangezip

@@ -9,7 +9,7 @@
 #include "core/base/parallel.h"
 #include "core/finish/corner_table.h"
 #include "core/finish/face_grid.h"
-#include "core/finish/regrow.h"
+#include "core/finish/left_out_points.h"
 #include "core/mesh/coverage.h"
 #include "core/mesh/face_changes.h"
 #include "core/mesh/self_intersection.h"

@@ -47,6 +47,16 @@ TEST_CASE("a run that waits for a pipe nobody writes into can be interrupted", "
   CHECK(folder.count() == 1);
 }
 
+TEST_CASE("a run that waits for a pipe nobody reads ends with the second signal", "[apps]") {
+  const TemporaryFolder folder;
+  store_sphere(folder / "sphere.ply", 3000);
+  REQUIRE(mkfifo((folder / "p.ply").c_str(), S_IRUSR | S_IWUSR) == 0);
+  const RunResult result = run({"mesh", folder / "sphere.ply", "-o", folder / "p.ply"},
+                               {.signal = SIGTERM, .signal_after = "meshing: done", .signals = 2});
+  CHECK(result.code == 128 + SIGTERM);
+  CHECK(folder.count() == 2);
+}
+
 TEST_CASE("progress is a bar with rate and time left on a terminal, and lines otherwise",
           "[apps]") {
   const TemporaryFolder folder;

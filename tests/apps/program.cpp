@@ -20,6 +20,7 @@ namespace rangezip::test {
 
 namespace {
 
+constexpr std::chrono::milliseconds kBetweenSignals{1200};
 constexpr std::chrono::seconds kLongestRun{120};
 
 /// In the child: takes over the outputs and becomes the program.
@@ -89,17 +90,21 @@ RunResult run(const std::vector<std::string>& arguments, const RunOptions& optio
   close(out.theirs);
 
   RunResult result;
-  bool is_signalled = options.signal == 0;
+  int signals = options.signal != 0 ? options.signals : 0;
   int status = 0;
-  const auto start = std::chrono::steady_clock::now();
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  auto next_signal = start;
   while (waitpid(child, &status, WNOHANG) == 0) {
     drain(out.ours, result.out);
     drain(err.ours, result.err);
-    if (!is_signalled && result.err.find(options.signal_after) != std::string::npos) {
+    if (signals > 0 && Clock::now() >= next_signal &&
+        result.err.find(options.signal_after) != std::string::npos) {
       kill(child, options.signal);
-      is_signalled = true;
+      --signals;
+      next_signal = Clock::now() + kBetweenSignals;
     }
-    if (std::chrono::steady_clock::now() - start > kLongestRun) kill(child, SIGKILL);
+    if (Clock::now() - start > kLongestRun) kill(child, SIGKILL);
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   drain(out.ours, result.out);

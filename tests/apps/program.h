@@ -15,9 +15,11 @@ struct RunOptions {
   std::optional<std::size_t> address_limit;        ///< bytes (ulimit -v)
   bool terminal = false;                           ///< standard error is a terminal
   std::string out_path;                            ///< standard output goes here instead
-  /// Sends this signal as soon as standard error holds `signal_after`.
+  /// Sends this signal as soon as standard error holds `signal_after`, and so many in all, one
+  /// every 1.2 seconds.
   int signal = 0;
   std::string signal_after;
+  int signals = 1;
 };
 
 struct RunResult {

@@ -54,7 +54,7 @@ void require_clean(const TriangleMesh& mesh) {
 
 void require_unchanged(TriangleMesh mesh, const std::vector<Vec3>& points) {
   const TriangleMesh before = mesh;
-  const GrownBodies grown = grow_bodies(mesh, points, {points}, kFronts);
+  const GrowthReport grown = grow_bodies(mesh, points, {points}, kFronts);
   CHECK(grown.bodies == 0);
   CHECK(grown.faces == 0);
   CHECK(mesh == before);
@@ -72,7 +72,7 @@ TEST_CASE("the wall of a closed cavity faces into it, and what lies in the cavit
   TriangleMesh mesh = testing::sphere(32);
   const std::size_t outside = mesh.triangles.size();
 
-  const GrownBodies grown = grow_bodies(mesh, points, {points}, kFronts);
+  const GrowthReport grown = grow_bodies(mesh, points, {points}, kFronts);
 
   REQUIRE(grown.bodies == 2);
   REQUIRE(mesh.triangles.size() == outside + grown.faces);
@@ -100,7 +100,7 @@ TEST_CASE("a body faces to where its points are seen from, whatever it lies in",
                      static_cast<std::int8_t>(vote.z)});
   }
   TriangleMesh mesh = testing::sphere(32);
-  const GrownBodies grown = grow_bodies(mesh, points, {points, votes}, kFronts);
+  const GrowthReport grown = grow_bodies(mesh, points, {points, votes}, kFronts);
   REQUIRE(grown.bodies == 1);
   CHECK(facing(mesh, last(mesh, grown.faces), Vec3(0.0)) == side);
 }
@@ -115,7 +115,7 @@ TEST_CASE("bodies of a few pixels come one by one, turned outwards", "[finish]")
     points.insert(points.end(), ball.begin(), ball.end());
   }
   TriangleMesh mesh = testing::sphere(32);
-  const GrownBodies grown = grow_bodies(mesh, points, {points}, kFronts);
+  const GrowthReport grown = grow_bodies(mesh, points, {points}, kFronts);
   REQUIRE(grown.bodies == 3);
   require_clean(mesh);
   for (const double pixels : {4.0, 6.0, 10.0}) {

@@ -58,3 +58,14 @@ TEST_CASE("of an empty mesh all points are left out", "[reconstruct]") {
   const std::vector<Vec3> points = points_at(0.0, 0.1, 100);
   CHECK(left_out_points(points, {}, kDistance) == points);
 }
+
+TEST_CASE("a hundred thousand points in one place cost no more than their number",
+          "[reconstruct]") {
+  const std::size_t pile = 100'000;
+  const double height = GENERATE(0.5, 30.0);
+  std::vector<Vec3> points = points_at(0.0, 0.1, 20'000);
+  points.insert(points.end(), pile, Vec3(50.0, 50.0, height));
+  points.push_back({50.0, 50.0, 1e30});  // farther away than a cube has a number
+  const std::vector<Vec3> left_out = left_out_points(points, square(), kDistance);
+  CHECK(left_out.size() == (height > kDistance ? pile + 1 : 1));
+}
