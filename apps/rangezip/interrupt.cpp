@@ -2,6 +2,7 @@
 
 #include <array>
 #include <chrono>
+#include <tuple>
 
 namespace rangezip::app {
 
@@ -19,18 +20,18 @@ bool is_ignored(int signal) {
 
 /// As if nobody had watched for it.
 void end_by(int signal) {
-  std::signal(signal, SIG_DFL);
+  std::ignore = std::signal(signal, SIG_DFL);
   sigset_t only;
   sigemptyset(&only);
   sigaddset(&only, signal);
   pthread_sigmask(SIG_UNBLOCK, &only, nullptr);
-  std::raise(signal);
+  std::ignore = std::raise(signal);
 }
 
 }  // namespace
 
 InterruptWatch::InterruptWatch() {
-  std::signal(SIGXFSZ, SIG_IGN);
+  std::ignore = std::signal(SIGXFSZ, SIG_IGN);
   sigemptyset(&signals_);
   sigaddset(&signals_, kEndOfWatch);
   for (const int signal : std::array{SIGINT, SIGTERM}) {

@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstring>
 #include <thread>
+#include <tuple>
 #include <vector>
 
 #include "apps/rangezip/exit_code.h"
@@ -63,7 +64,8 @@ int run_program(std::vector<std::string> arguments, bool quiet, const std::stop_
   if (quiet) {
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   }
-  std::signal(SIGCHLD, SIG_DFL);  // where it is ignored, nobody learns how a program ended
+  std::ignore =
+      std::signal(SIGCHLD, SIG_DFL);  // where it is ignored, nobody learns how a program ended
   pid_t child = 0;
   static_cast<void>(std::fflush(stdout));  // what was printed comes first
   const int failed = posix_spawn(&child, argv[0], &actions, nullptr, argv.data(), environ);

@@ -7,6 +7,7 @@
 #include "core/base/parallel.h"
 #include "core/finish/left_out_points.h"
 #include "core/finish/papered_faces.h"
+#include "core/finish/places_near.h"
 #include "core/finish/point_grid.h"
 #include "core/mesh/coverage.h"
 
@@ -23,6 +24,9 @@ constexpr std::size_t kMinFaces = 10;
 /// In pixel sides or spacings. Of randomly spread points one in a thousand has no other within
 /// this.
 constexpr double kSupportRadius = 1.5;
+
+/// In square pixel sides: a surface that runs askew through a cube with such sides.
+constexpr double kMostOfCube = 2.0;
 
 double area_of_mesh(const TriangleMesh& mesh) {
   double area = 0.0;
@@ -48,6 +52,20 @@ double total_area(std::span<const Place> places) {
   return area;
 }
 
+/// What each of the points stands for: `area_per_point`, but no more than fits to where they are.
+std::vector<double> areas_of_points(std::span<const Vec3> points, double area_per_point,
+                                    double pixel_size) {
+  const std::vector<std::uint32_t> firsts = firsts_of_cubes(points, pixel_size);
+  std::vector<double> counts(points.size(), 0.0);
+  for (const std::uint32_t first : firsts)
+    counts[first] += 1.0;
+  const double most = kMostOfCube * pixel_size * pixel_size;
+  std::vector<double> areas(points.size());
+  for (std::size_t i = 0; i < areas.size(); ++i)
+    areas[i] = std::min(area_per_point, most / counts[firsts[i]]);
+  return areas;
+}
+
 void report_uncovered(std::span<const Vec3> points, const std::vector<std::uint8_t>& is_covered,
                       const TriangleMesh& mesh, double area_per_point, double pixel_size,
                       CoverageReport& report) {
@@ -57,7 +75,7 @@ void report_uncovered(std::span<const Vec3> points, const std::vector<std::uint8
   }
   report.uncovered_points = uncovered.size();
   const std::vector<Vec3> left_out = left_out_points(points, uncovered, mesh, pixel_size);
-  const std::vector<double> areas(left_out.size(), area_per_point);
+  const std::vector<double> areas = areas_of_points(left_out, area_per_point, pixel_size);
   report.uncovered = places_of(left_out, areas, kReach * pixel_size);
   report.scattered_points =
       uncovered.size() - left_out.size() + drop_scattered(report.uncovered, kMinPoints);

@@ -76,6 +76,18 @@ TEST_CASE("a part of the cloud without a mesh is one place of its area", "[recon
   CHECK(place.radius < 0.46);
 }
 
+TEST_CASE("points in one place stand for no more area than it has room for", "[reconstruct]") {
+  std::vector<Vec3> points = points_of_sphere();
+  const std::size_t pile = 10'000;  // a quarter of the sphere
+  points.insert(points.end(), pile, Vec3(0.5 * kPixel));
+  const CoverageReport report =
+      report_coverage({points}, shapes::to_mesh(shapes::sphere(1.0, 96)), kPixel);
+  REQUIRE(report.uncovered.size() == 1);
+  CHECK(report.uncovered.front().points == pile);
+  CHECK(report.uncovered_area > 0.0);
+  CHECK(report.uncovered_area < 2.01 * kPixel * kPixel);
+}
+
 TEST_CASE("a part of the mesh without points is one place of its area", "[reconstruct]") {
   std::vector<Vec3> points = points_of_sphere();
   std::erase_if(points, is_in_cap);
