@@ -130,8 +130,10 @@ TEST_CASE("bodies of a few pixels come one by one, turned outwards", "[finish]")
   }
 }
 
-TEST_CASE("no body comes of stray points, of a sheet, or of what goes on from the mesh",
-          "[finish]") {
+TEST_CASE(
+    "no body comes of stray points, of a sheet, of many points in one place, or of what goes "
+    "on from the mesh",
+    "[finish]") {
   const auto seed = static_cast<std::uint64_t>(Catch::rngSeed());
   CAPTURE(seed);
   std::mt19937_64 engine(seed);
@@ -143,6 +145,9 @@ TEST_CASE("no body comes of stray points, of a sheet, or of what goes on from th
   for (Vec3& p : sheet)
     p = {uniform(engine, -0.5, 0.5), uniform(engine, -0.5, 0.5), 0.0};
   require_unchanged(ball, sheet);
+  std::vector<Vec3> pile(100'000, Vec3(0.0));
+  pile.emplace_back(1e30, 0.0, 0.0);
+  require_unchanged(ball, pile);
   TriangleMesh open = ball;  // its upper part is left out
   testing::cut_where(open, [](const Vec3& p) { return p.z > -0.7; });
   std::vector<Vec3> rest = testing::sphere_points(kSpacing, 0.0, engine);
