@@ -16,8 +16,9 @@ inline constexpr std::size_t kFewLeftOut = 40;  ///< fewer do not matter
 
 /// The points of places that a mesh leaves out: those farther from it than `distance`, as are at
 /// least half of the points within twice that around them. The tails of noise, of which a few lie
-/// far from any good surface but all around lies what is near, are not among them. In the order of
-/// the points. O(points + faces), in parallel.
+/// far from any good surface but all around lies what is near, are not among them. Where more
+/// than 64 of them lie in a cube with sides of a quarter of the distance, the first tells for all.
+/// In the order of the points. O(points + faces), in parallel.
 /// @param distance model units, positive
 [[nodiscard]] std::vector<Vec3> left_out_points(std::span<const Vec3> points,
                                                 const TriangleMesh& mesh, double distance);
