@@ -48,6 +48,7 @@ void print_input(Console& console, const InputReport& report) {
     print_line(console, "upper corner", vector_text(report.bounds.upper));
   }
   print_nonzero(console, "skipped points", report.nonfinite_points);
+  print_nonzero(console, "repeated points", report.repeated_points);
   print_nonzero(console, "skipped polygons", report.nonfinite_polygons);
   print_nonzero(console, "degenerate polygons", report.degenerate_polygons);
   for (const std::string& note : report.notes)

@@ -21,6 +21,7 @@ Json json_of(const InputReport& input) {
           {"polygons", input.polygons},
           {"skipped",
            {{"nonfinite_points", input.nonfinite_points},
+            {"repeated_points", input.repeated_points},
             {"nonfinite_polygons", input.nonfinite_polygons},
             {"degenerate_polygons", input.degenerate_polygons}}},
           {"notes", input.notes}};

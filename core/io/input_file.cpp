@@ -9,6 +9,7 @@
 #include "core/io/conf_file.h"
 #include "core/io/raw_geometry.h"
 #include "core/io/read_opened.h"
+#include "core/io/repeated_points.h"
 
 namespace rangezip {
 
@@ -104,6 +105,7 @@ InputFile read_one(const FileBytes& file, const Mat4& world_from_file, const Pro
   report.degenerate_polygons = split.degenerate;
   report.triangles = split.triangles.size();
   PointCloud cloud = points_of(geometry);
+  report.repeated_points = drop_repeated_points(cloud.positions);
   report.points = cloud.positions.size();
   if (!cloud.positions.empty()) {
     input.items.push_back({.cloud = std::make_shared<const PointCloud>(std::move(cloud)),

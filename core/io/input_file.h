@@ -21,6 +21,7 @@ struct InputReport {
   std::size_t triangles = 0;            ///< taken, after splitting polygons and strips
   std::size_t polygons = 0;             ///< in the file, before splitting
   std::size_t nonfinite_points = 0;     ///< skipped
+  std::size_t repeated_points = 0;      ///< skipped: in one place (core/io/repeated_points.h)
   std::size_t nonfinite_polygons = 0;   ///< skipped: a corner is not finite
   std::size_t degenerate_polygons = 0;  ///< skipped: fewer than three distinct corners
   Box bounds;                           ///< of all finite positions, in the file's own coordinates

@@ -191,6 +191,28 @@ TEST_CASE("Points that are not finite are left out and counted") {
   CHECK(points(input.items[0]) == std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
 }
 
+TEST_CASE("Points in one place are kept once where they are one in a hundred or more") {
+  const std::size_t repeats = GENERATE(2U, 20U, 200U, 20'000U);
+  std::string text, once;
+  for (int i = 0; i < 4000; ++i) {
+    const std::string line = std::to_string(i % 60) + " " + std::to_string(i) + " 7\n";
+    text += line;
+    once += line;
+    if (i == 1000) once += "0 0 0\n";
+    if (i != 1000) continue;
+    for (std::size_t k = 0; k < repeats; ++k)
+      text += "0 0 0\n";
+  }
+  const InputFile input = read_text("a.xyz", text);
+  if (repeats < 40) {
+    CHECK(input.reports[0].repeated_points == 0);
+    CHECK(input.reports[0].points == 4000 + repeats);
+  } else {
+    CHECK(input.reports[0].repeated_points == repeats - 1);
+    CHECK(points(input.items[0]) == points(read_text("a.xyz", once).items[0]));
+  }
+}
+
 TEST_CASE("OBJ corners count from 1 or backwards and may carry textures and normals") {
   const InputFile input = read_text("a.obj",
                                     "mtllib x.mtl\no thing\nv 0 0 0\nv 1 0 0 1.0\n"
