@@ -1,5 +1,7 @@
 #include "apps/rangezip/inputs.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "apps/rangezip/exit_code.h"
@@ -54,6 +56,20 @@ std::string amount_text(const Scene& scene) {
     text += (text.empty() ? "" : ", ") + with_commas(scene.triangle_count()) + " triangles";
   }
   return text;
+}
+
+std::string skipped_text(std::span<const InputReport> reports) {
+  std::size_t nonfinite = 0, repeated = 0, polygons = 0;
+  for (const InputReport& report : reports) {
+    nonfinite += report.nonfinite_points;
+    repeated += report.repeated_points;
+    polygons += report.nonfinite_polygons + report.degenerate_polygons;
+  }
+  std::vector<std::string> parts;
+  if (nonfinite > 0) parts.push_back("points not finite: " + with_commas(nonfinite));
+  if (repeated > 0) parts.push_back("points repeated in one place: " + with_commas(repeated));
+  if (polygons > 0) parts.push_back("polygons without three corners: " + with_commas(polygons));
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 Workload workload_of(const Scene& scene) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,10 @@ void require_rereadable(const std::vector<std::filesystem::path>& paths,
 
 /// "362,272 points, 69,451 triangles", without what there is none of.
 [[nodiscard]] std::string amount_text(const Scene& scene);
+
+/// "points not finite: 3, points repeated in one place: 99,999", what was left out of the files;
+/// empty if nothing was.
+[[nodiscard]] std::string skipped_text(std::span<const InputReport> reports);
 
 /// The points to draw, or the triangles where there are none: what the rate of the work counts.
 struct Workload {

@@ -87,8 +87,11 @@ void print_coverage(Console& console, const CoverageReport& coverage) {
 }
 
 void print_summary(Console& console, const MeshOptions& options, const Scene& scene,
-                   const ReconstructReport& report, const StageTime& total) {
+                   const MeshRunReport& run, const StageTime& total) {
+  const ReconstructReport& report = run.reconstruction;
   console.print(fmt::format("input     {}", amount_text(scene)));
+  const std::string skipped = skipped_text(run.inputs);
+  if (!skipped.empty()) console.print(fmt::format("skipped   {}", skipped));
   console.print(fmt::format("scans     {} views, {} into holes, pixel size {:.4g}",
                             report.views.size(), report.views.size() - report.planned_views,
                             report.pixel_size));
@@ -151,7 +154,7 @@ void mesh(const MeshOptions& options, const Context& context) {
   run.inputs = std::move(input.reports);
   run.reconstruction = std::move(result.report);
   if (options.report) write_output([&] { write_report(*options.report, run); });
-  print_summary(console, options, input.scene, run.reconstruction, total.stage("total"));
+  print_summary(console, options, input.scene, run, total.stage("total"));
   if (referee) {
     let_referee_judge(*referee, *session, options.output, options.common.backend,
                       options.common.quiet, context.stop);

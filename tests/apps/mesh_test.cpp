@@ -66,6 +66,24 @@ TEST_CASE("mesh makes one closed sphere of a cloud, and says so", "[apps]") {
   CHECK(seconds > 0.0);
 }
 
+TEST_CASE("mesh says which points it skipped", "[apps]") {
+  const TemporaryFolder folder;
+  store_sphere(folder / "sphere.ply");
+  std::string unseen = "nan nan nan\n";
+  for (int i = 0; i < 1500; ++i)
+    unseen += "0 0 0\n";
+  const auto more = folder.store("unseen.xyz", unseen);
+  const RunResult result = mesh(folder, "out.ply", {more, "--report", folder / "r.json"});
+  CAPTURE(result.err);
+  REQUIRE(result.code == 0);
+  CHECK_THAT(result.out,
+             Contains("20,001 points") &&
+                 Contains("skipped   points not finite: 1, points repeated in one place: 1,499"));
+  const Json skipped = Json::parse(load(folder / "r.json"))["inputs"][1]["skipped"];
+  CHECK(skipped["nonfinite_points"] == 1);
+  CHECK(skipped["repeated_points"] == 1499);
+}
+
 TEST_CASE("mesh says which step made a handle", "[apps]") {
   const TemporaryFolder folder;
   std::ofstream cloud(folder / "torus.xyz");
