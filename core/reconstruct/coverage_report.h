@@ -15,7 +15,7 @@ struct CoverageReport {
   std::size_t uncovered_points = 0;
   std::size_t scattered_points = 0;  ///< of these, in no place: outliers and the tails of noise
   /// That the places stand for, square model units; an estimate: each point stands for as much as
-  /// covered ones on average, and those in a cube with pixel sides for two of its sides at most.
+  /// covered ones on average, and those in a cube with pixel sides for two square pixels at most.
   double uncovered_area = 0.0;
   std::vector<Place> uncovered;    ///< such as pockets that no view can reach; largest first
   double unsupported_area = 0.0;   ///< of the places without points, square model units
