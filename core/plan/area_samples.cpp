@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "core/plan/scene_triangles.h"
@@ -6,6 +7,11 @@
 namespace rangezip {
 
 namespace {
+
+constexpr std::size_t kLeastSamples = 20'000;
+constexpr std::size_t kMostSamples = 4'000'000;
+constexpr std::size_t kSamplesIfNoPixels = 200'000;
+constexpr double kSamplesPerPixel = 8.0;
 
 /// 0 for a triangle with a corner that is not finite.
 double area_of(const TriangleCorners& triangle) {
@@ -27,6 +33,13 @@ double triangle_area(const Scene& scene) {
   double area = 0.0;
   for_each_triangle(scene, [&](const TriangleCorners& triangle) { area += area_of(triangle); });
   return area;
+}
+
+std::size_t area_sample_count(const Scene& scene, double pixel_size) {
+  if (!(pixel_size > 0.0)) return kSamplesIfNoPixels;
+  const double wanted = kSamplesPerPixel * triangle_area(scene) / (pixel_size * pixel_size);
+  if (!(wanted < static_cast<double>(kMostSamples))) return kMostSamples;
+  return std::max(kLeastSamples, static_cast<std::size_t>(wanted));
 }
 
 std::vector<Vec3> area_samples(const Scene& scene, std::size_t count) {

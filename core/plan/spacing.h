@@ -71,6 +71,10 @@ struct Spacing {
 /// a sample within a few times sqrt(area / count). Empty if the scene has no triangle with area.
 [[nodiscard]] std::vector<Vec3> area_samples(const Scene& scene, std::size_t count);
 
+/// How many area_samples() pixels of this side need: eight for each that the scene's triangles
+/// fill, at least 20,000 and at most 4 million; 200,000 if pixel_size is 0 (no pixels are known).
+[[nodiscard]] std::size_t area_sample_count(const Scene& scene, double pixel_size);
+
 /// Area of all triangles of the scene, model units squared.
 [[nodiscard]] double triangle_area(const Scene& scene);
 

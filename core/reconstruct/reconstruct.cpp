@@ -64,7 +64,7 @@ constexpr std::size_t kJudgedSamples = 100'000;
 constexpr std::size_t kCoverSamples = 2'000'000;  ///< drawn to plan views of what is uncovered
 constexpr double kMinFillLoop = 6.0;          ///< pixel sides; shorter loops are left to the finish
 constexpr std::size_t kMinPieceOfSheet = 12;  ///< faces: much of an open sheet lies apart
-constexpr std::size_t kAreaSamples = 400'000;  ///< of polygons, to plan and to judge coverage
+constexpr std::size_t kAreaSamples = 400'000;  ///< of polygons at most, to plan and to judge by
 
 /// The share of the whole run at which each stage begins, from measured runs.
 constexpr double kPlanShare = 0.02;
@@ -127,17 +127,16 @@ class Run {
     result_.commands.push_back(std::move(command));
   }
 
-  [[nodiscard]] std::span<const Vec3> scene_points() const {
-    return std::span(samples_).first(scene_.point_count());
+  /// The points, then so many places on the polygons.
+  void take_samples(std::size_t on_polygons) {
+    samples_ = scene_.points();
+    const std::vector<Vec3> places = area_samples(scene_, on_polygons);
+    samples_.insert(samples_.end(), places.begin(), places.end());
   }
 
   void choose_resolution_and_views() {
     progress_.at("resolution", 0.0);
-    samples_ = scene_.points();
-    if (scene_.triangle_count() > 0) {
-      const std::vector<Vec3> on_polygons = area_samples(scene_, kAreaSamples);
-      samples_.insert(samples_.end(), on_polygons.begin(), on_polygons.end());
-    }
+    take_samples(kAreaSamples);
     const bool is_finished_whole = options_.finish == FinishMethod::full;
     const Resolution resolution = choose_resolution(scene_, samples_, options_.pixel_size,
                                                     options_.triangles, is_finished_whole, excess_);
@@ -149,13 +148,16 @@ class Run {
                .gap = resolution.gap,
                .decimate = is_finished_whole ? std::nullopt : options_.decimate,
                .has_points = scene_.point_count() > 0};
-    if (recipe_.has_points) recipe_.one_sided = is_open_sheet(rasterizer_, scene_points());
+    const std::span points = std::span(samples_).first(scene_.point_count());
+    if (recipe_.has_points) recipe_.one_sided = is_open_sheet(rasterizer_, points);
     noise_ = resolution.noise;
     is_of_cloud_ = resolution.is_of_cloud;
     is_sparse_ = resolution.spacing > kSparseSpacing * recipe_.pixel_size &&
                  resolution.spacing <= kVerySparseSpacing * recipe_.pixel_size;
     is_clean_ = resolution.noise <= kMaxHoleNoise * recipe_.pixel_size;
     result_.report.pixel_size = recipe_.pixel_size;
+    const std::size_t wanted = area_sample_count(scene_, recipe_.pixel_size);
+    if (2 * wanted < kAreaSamples) take_samples(wanted);  // of much larger pixels than usual
     book("resolution");
 
     ViewPlanOptions plan_options{.one_sided = recipe_.one_sided};

@@ -23,18 +23,7 @@ namespace rangezip {
 
 namespace {
 
-constexpr std::size_t kLeastAreaSamples = 200'000;
-constexpr std::size_t kMostAreaSamples = 4'000'000;
-constexpr double kAreaSamplesPerPixel = 8.0;
 constexpr double kVoteShare = 0.5;  ///< of an AddScan that has to vote first
-
-/// @param pixel_size 0: no pixels are known
-std::size_t area_sample_count(double area, double pixel_size) {
-  if (!(pixel_size > 0.0)) return kLeastAreaSamples;
-  const double wanted = kAreaSamplesPerPixel * area / (pixel_size * pixel_size);
-  if (!(wanted < static_cast<double>(kMostAreaSamples))) return kMostAreaSamples;
-  return std::max(kLeastAreaSamples, static_cast<std::size_t>(wanted));
-}
 
 /// Unit vector along the line of sight, toward the scanner; of the middle ray for a central
 /// projection.
@@ -170,7 +159,7 @@ std::vector<Vec3> evidence_points(const Scene& scene, double pixel_size) {
   std::vector<Vec3> points = scene.points();
   if (scene.triangle_count() > 0) {
     const std::vector<Vec3> on_triangles =
-        area_samples(scene, area_sample_count(triangle_area(scene), pixel_size));
+        area_samples(scene, area_sample_count(scene, pixel_size));
     points.insert(points.end(), on_triangles.begin(), on_triangles.end());
   }
   return points;
