@@ -57,7 +57,7 @@ struct CommandResult {
 
 /// What FinishMesh fits vertices to: all points of the scene, then area samples of its triangles
 /// (none if it has no triangles), world coordinates: 8 for the square of a pixel, so that what is
-/// fitted to those around a place does not end with them; 200,000 at least, 4,000,000 at most.
+/// fitted to those around a place does not end with them; 20,000 at least, 4,000,000 at most.
 /// @param pixel_size model units; 0: the least number
 [[nodiscard]] std::vector<Vec3> evidence_points(const Scene& scene, double pixel_size = 0.0);
 
