@@ -58,7 +58,7 @@ struct CommandResult {
 /// What FinishMesh fits vertices to: all points of the scene, then area samples of its triangles
 /// (none if it has no triangles), world coordinates: 8 for the square of a pixel, so that what is
 /// fitted to those around a place does not end with them; 20,000 at least, 4,000,000 at most.
-/// @param pixel_size model units; 0: the least number
+/// @param pixel_size model units; 0: not known, 200,000 samples
 [[nodiscard]] std::vector<Vec3> evidence_points(const Scene& scene, double pixel_size = 0.0);
 
 /// Mean length over the three edges of every triangle, model units: what stands in for the pixel
