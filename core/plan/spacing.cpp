@@ -34,6 +34,10 @@ constexpr double kOnPlane = 0.25;
 /// The same where places are spread over the surface, and an outlier stands for no more of it than
 /// others: a sparse scan may be noisy. Points all over a space have 0.7.
 constexpr double kOnNoisyPlane = 0.45;
+/// Of the places that are sparser than usual: where fewer lie on a plane they all are of outliers
+/// that fill a space, as the points that a depth camera sees between an object's outline and what
+/// is behind it; of those one in twelve does by chance, of a sparse scan nearly all.
+constexpr double kShareOnPlane = 0.2;
 /// Of those places: more would be outliers that look like surface, where one in twenty points is
 /// one.
 constexpr double kShareOfPlaces = 0.75;
@@ -262,16 +266,22 @@ bool is_off_plane(const Neighbourhood& neighbourhood, double noise) {
 /// them is on it.
 double spacing_of_most(std::span<const Neighbourhood> places, double median) {
   constexpr double kNoWall = std::numeric_limits<double>::infinity();
-  std::vector<double> spacings;
+  std::vector<double> usual, sparse;
+  std::size_t unusual = 0;
   for (const Neighbourhood& place : places) {
     const double spacing = spacing_of(place);
-    const bool is_usual = spacing <= kUsual * median;
+    if (spacing <= kUsual * median) {
+      usual.push_back(spacing);
+      continue;
+    }
+    if (is_aside(place)) continue;
+    ++unusual;
     const auto offsets = offsets_of(place, place.places().size());
-    if (is_usual ||
-        (!is_aside(place) && distance_from_plane(offsets, kNoWall) <= kOnNoisyPlane * spacing))
-      spacings.push_back(spacing);
+    if (distance_from_plane(offsets, kNoWall) <= kOnNoisyPlane * spacing) sparse.push_back(spacing);
   }
-  return spacings.empty() ? median : quantile(std::move(spacings), kShareOfPlaces);
+  if (static_cast<double>(sparse.size()) >= kShareOnPlane * static_cast<double>(unusual))
+    usual.insert(usual.end(), sparse.begin(), sparse.end());
+  return usual.empty() ? median : quantile(std::move(usual), kShareOfPlaces);
 }
 
 /// Whether a point lies off the surface, where usual spacings are about the median.

@@ -29,7 +29,8 @@ struct Spacing {
 /// hundred, which may be an outlier that nothing tells. Of a scan that is far sparser than another
 /// one beside it those 300 hold too few: 300 more are spread over the surface
 /// (core/plan/places_over_surface.h), each of which stands for as much of it, and a quarter of them
-/// that is sparser tells as much as a tenth of the surface does.
+/// that is sparser tells as much as a tenth of the surface does. Where hardly any of the sparse
+/// ones lies on a plane, they are outliers that fill the space around the object, and tell nothing.
 /// A cloud of contours, points dense along slices that are far apart, is told by neighbours that
 /// lie on a line: of more than half of those 300 the nearest five do. Its gap is the mean of median
 /// and 75 % quantile of how far the slices on both sides are, the farther one, but at most twice as

@@ -112,7 +112,7 @@ TEST_CASE("no outliers make a cloud uneven, near its surface or far from it") {
   // Of those near it, all neighbours are one spot of the surface: they lie in a plane with it.
   const std::uint64_t seed = GENERATE(range<std::uint64_t>(1, 11));
   const double height = GENERATE(10.0, 40.0, 200.0);
-  const int share = GENERATE(20, 100);  // one in so many
+  const int share = GENERATE(8, 20, 100);  // one in so many
   CAPTURE(seed, height, share);
   std::vector<Vec3> points = lattice(300, 1.0);
   const double pixel = pixel_size_from_spacing(estimate_spacing(points));
@@ -122,6 +122,27 @@ TEST_CASE("no outliers make a cloud uneven, near its surface or far from it") {
     points.push_back({300.0 * random.unit(), 300.0 * random.unit(), height * random.unit()});
   }
   CHECK(pixel_size_from_spacing(estimate_spacing(points)) == Approx(pixel).epsilon(0.25));
+}
+
+TEST_CASE("points that a depth camera sees past an object's outline do not make a cloud uneven") {
+  // Thirty cameras around a sphere; each sees points between its outline and what is behind it.
+  const std::uint64_t seed = GENERATE(range<std::uint64_t>(1, 6));
+  CAPTURE(seed);
+  std::vector<Vec3> points =
+      shapes::to_points(shapes::sampled(shapes::sphere(1.0, 64), 100'000, seed));
+  const double sparse = estimate_spacing(points).sparse;
+  shapes::Random random(seed);
+  for (int camera = 0; camera < 30; ++camera) {
+    const Vec3 away = random.direction();
+    for (int i = 0; i < 500; ++i) {
+      const Vec3 outline = glm::normalize(glm::cross(away, random.direction()));
+      const double share = random.unit();
+      points.push_back(outline + 2.0 * share * share * away);
+    }
+  }
+  const Spacing spacing = estimate_spacing(points);
+  CHECK(spacing.sparse == Approx(sparse).epsilon(0.25));
+  CHECK_FALSE(is_uneven(spacing));
 }
 
 TEST_CASE("estimate_spacing is one over the root of the density of a random cloud") {
