@@ -27,22 +27,6 @@ std::vector<NoisePlace*> narrow_places(std::vector<NoisePlace>& places) {
   return narrow;
 }
 
-/// The offsets of the points in each ball from its centre, which comes first.
-std::vector<std::vector<Vec3>> points_in(std::span<const SlabIndex::Ball> balls,
-                                         std::span<const Vec3> points) {
-  const SlabIndex slabs(balls);
-  std::vector<std::vector<Vec3>> inside(balls.size(), {Vec3(0.0)});
-  for (const Vec3& point : points) {
-    for (const std::uint32_t b : slabs.balls_near(point.x)) {
-      const Vec3 offset = point - balls[b].center;
-      const double squared = glm::dot(offset, offset);
-      if (squared == 0.0 || squared > balls[b].radius * balls[b].radius) continue;
-      inside[b].push_back(offset);
-    }
-  }
-  return inside;
-}
-
 /// Brings the nearest ones to the front, where they tell which side of a wall is meant, and thins
 /// the others.
 void sort_and_thin(std::vector<Vec3>& offsets) {
@@ -68,8 +52,9 @@ void widen_over_noise(std::span<const Vec3> points, std::vector<NoisePlace>& pla
       place->radius *= std::numbers::sqrt2;
       balls.push_back({place->center, place->radius});
     }
-    std::vector<std::vector<Vec3>> inside = points_in(balls, points);
+    std::vector<std::vector<Vec3>> inside = offsets_in_balls(balls, points);
     for (std::size_t i = 0; i < narrow.size(); ++i) {
+      inside[i].insert(inside[i].begin(), Vec3(0.0));  // the centre is a point, too
       sort_and_thin(inside[i]);
       narrow[i]->noise = distance_from_plane(inside[i], narrow[i]->wall);
     }

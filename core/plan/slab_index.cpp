@@ -25,4 +25,20 @@ std::size_t SlabIndex::slab_of(double x) const {
   return slab > 0.0 ? static_cast<std::size_t>(std::min(slab, kSlabs - 1.0)) : 0;
 }
 
+std::vector<std::vector<Vec3>> offsets_in_balls(std::span<const SlabIndex::Ball> balls,
+                                                std::span<const Vec3> points) {
+  std::vector<std::vector<Vec3>> inside(balls.size());
+  if (balls.empty()) return inside;
+  const SlabIndex slabs(balls);
+  for (const Vec3& point : points) {
+    for (const std::uint32_t b : slabs.balls_near(point.x)) {
+      const Vec3 offset = point - balls[b].center;
+      const double squared = glm::dot(offset, offset);
+      if (squared == 0.0 || squared > balls[b].radius * balls[b].radius) continue;
+      inside[b].push_back(offset);
+    }
+  }
+  return inside;
+}
+
 }  // namespace rangezip

@@ -38,4 +38,10 @@ class SlabIndex {
   std::array<std::vector<std::uint32_t>, kSlabs> balls_of_slab_;
 };
 
+/// Of each ball the offsets from its centre of the points that lie in it, but for the centre
+/// itself, in the order of the points.
+/// @pre as for SlabIndex; there may be none
+[[nodiscard]] std::vector<std::vector<Vec3>> offsets_in_balls(
+    std::span<const SlabIndex::Ball> balls, std::span<const Vec3> points);
+
 }  // namespace rangezip

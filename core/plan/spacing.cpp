@@ -12,6 +12,7 @@
 #include "core/base/spread.h"
 #include "core/base/symmetric_eigen.h"
 #include "core/plan/cloud_noise.h"
+#include "core/plan/line_gap.h"
 #include "core/plan/own_sheet.h"
 #include "core/plan/places_over_surface.h"
 #include "core/plan/slab_index.h"
@@ -81,6 +82,10 @@ class Neighbourhood {
   [[nodiscard]] const Vec3& center() const { return center_; }
   [[nodiscard]] std::span<const Vec3> places() const { return {places_.data(), count_}; }
   [[nodiscard]] double radius() const { return std::sqrt(reach_); }
+  /// To the nearest place number `rank`, from 1; 0 if there are fewer.
+  [[nodiscard]] double distance(std::size_t rank) const {
+    return rank <= count_ ? std::sqrt(distances_[rank - 1]) : 0.0;
+  }
   [[nodiscard]] double farthest() const {
     return count_ == 0 ? 0.0 : std::sqrt(distances_[count_ - 1]);
   }
@@ -309,6 +314,13 @@ double quantile_of_surface(std::span<const Neighbourhood> queries,
   return median;
 }
 
+std::vector<LinePlace> line_places(std::span<const Neighbourhood> queries) {
+  std::vector<LinePlace> places;
+  for (const Neighbourhood& query : queries)
+    places.push_back({query.center(), query.distance(4), query.distance(16)});
+  return places;
+}
+
 std::vector<double> noises_of(std::span<const NoisePlace> places) {
   std::vector<double> noises;
   for (const NoisePlace& place : places)
@@ -365,7 +377,11 @@ Spacing estimate_spacing(std::span<const Vec3> points) {
   Spacing spacing{.median = quantile(spacings, 0.5), .quantile75 = quantile(spacings, 0.75)};
   spacing.sparse = std::max(quantile_of_surface(queries, noises, spacing.median, 0.9),
                             spacing_of_most(over_surface, spacing.median));
-  if (const auto contours = contour_spacing(points, queries)) spacing = *contours;
+  if (const auto contours = contour_spacing(points, queries)) {
+    spacing = *contours;
+  } else {
+    spacing.line_gap = line_gap(points, line_places(queries));
+  }
   spacing.near_noise = quantile(noises, 0.5);
   widen_over_noise(points, places);
   spacing.noise = quantile(noises_of(places), 0.5);
@@ -390,13 +406,15 @@ double pixel_size_from_spacing(const Spacing& spacing) {
   constexpr double kPixelsAcross = 250.0;
   constexpr double kEven = 1.25;  // sparse by median: even clouds have so much by chance
   constexpr double kPerSparse = 1.45;
+  constexpr double kPerLineGap = 0.9;
   constexpr double kCoarsest = 4.0;  // local_sizes() are down to a quarter
   const double closed = closed_sheet_pixel_size(spacing);
   const double fewest = kFewestPerSpacing * 0.5 * (spacing.median + spacing.quantile75);
   const double finest = std::max({fewest, size_for_noise(spacing), spacing.gap});
   const double usual = std::min(closed, std::max(finest, spacing.diagonal / kPixelsAcross));
   const double excess = std::max(spacing.sparse - kEven * spacing.median, 0.0);
-  return std::clamp(fewest + kPerSparse * excess, usual, kCoarsest * usual);
+  const double of_lines = kPerLineGap * spacing.line_gap;
+  return std::clamp(std::max(fewest + kPerSparse * excess, of_lines), usual, kCoarsest * usual);
 }
 
 }  // namespace rangezip

@@ -15,6 +15,7 @@ struct Spacing {
   double quantile75 = 0.0;  ///< three quarters of the cloud are at least this dense
   double sparse = 0.0;      ///< nine tenths of the surface are at least this dense, about
   double gap = 0.0;         ///< between contours, if the cloud is made of such; else 0
+  double line_gap = 0.0;  ///< between scan lines, if there are such (core/plan/line_gap.h); else 0
   double near_noise = 0.0;  ///< median distance (RMS) of points from their neighbours' plane
   double noise = 0.0;       ///< the same of all points as near as the noise is wide
   double diagonal = 0.0;    ///< of robust_bounds(), model units
@@ -55,7 +56,9 @@ struct Spacing {
 /// then than closed pixels. A pixel is no smaller than the gap between contours. Where the sparse
 /// tenth of the surface exceeds 1.25 medians it is at least 1.3 spacings and 1.45 times the excess,
 /// up to four times as much as else: pixels that show through one side of a wall of sparse points
-/// lose the other one. Of the dense parts finer scans are made later (core/finish/local_sizes.h).
+/// lose the other one. Of scan lines hardly two neighbouring rows of pixels may be empty: it is at
+/// least 0.9 of their gap. Of the dense parts finer scans are made later
+/// (core/finish/local_sizes.h).
 [[nodiscard]] double pixel_size_from_spacing(const Spacing& spacing);
 
 /// A box that leaves out far outliers. Per axis the middle half of the cloud is widened on both

@@ -151,7 +151,7 @@ class Run {
     const std::span points = std::span(samples_).first(scene_.point_count());
     if (recipe_.has_points) recipe_.one_sided = is_open_sheet(rasterizer_, points);
     noise_ = resolution.noise;
-    is_of_cloud_ = resolution.is_of_cloud;
+    follows_density_ = resolution.follows_density;
     is_sparse_ = resolution.spacing > kSparseSpacing * recipe_.pixel_size &&
                  resolution.spacing <= kVerySparseSpacing * recipe_.pixel_size;
     is_clean_ = resolution.noise <= kMaxHoleNoise * recipe_.pixel_size;
@@ -264,7 +264,7 @@ class Run {
   }
 
   /// Whether it is left to the cloud how fine scans are.
-  [[nodiscard]] bool follows_density() const { return is_of_cloud_ && is_plain_cloud(); }
+  [[nodiscard]] bool follows_density() const { return follows_density_ && is_plain_cloud(); }
 
   /// Where the cloud is denser, finer pixels [Kobbelt, Botsch 2000, Fig. 3]. What scans with the
   /// usual pixels made there goes first: it spans gaps that finer ones see through.
@@ -440,7 +440,7 @@ class Run {
   Session session_;
   ScanRecipe recipe_;
   double noise_ = 0.0;              ///< of the points, model units
-  bool is_of_cloud_ = false;        ///< what the pixels of the planned scans are
+  bool follows_density_ = false;    ///< of the resolution
   bool is_sparse_ = false;          ///< the points: finer pixels see through, fronts grow over
   bool is_clean_ = true;            ///< enough to scan papered holes again
   double fill_share_ = kFillShare;  ///< of the progress, so far

@@ -105,8 +105,9 @@ Resolution choose_resolution(const Scene& scene, std::span<const Vec3> samples,
     const double finest = finest_pixel_size(chosen.bounds);
     chosen.pixel_size = std::max(finest, demanded_pixel_size(scene, samples, spacing, triangles,
                                                              is_remeshed, excess, finest));
-    chosen.is_of_cloud =
-        spacing && chosen.pixel_size <= std::max(finest, pixel_size_from_spacing(*spacing));
+    chosen.follows_density =
+        spacing && spacing->line_gap == 0.0 &&
+        chosen.pixel_size <= std::max(finest, pixel_size_from_spacing(*spacing));
   }
 
   if (has_points) {

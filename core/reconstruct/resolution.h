@@ -11,13 +11,15 @@ namespace rangezip {
 
 /// What an automatic run decides about the size of things before it scans.
 struct Resolution {
-  double pixel_size = 0.0;   ///< model units
-  bool is_of_cloud = false;  ///< no coarser than the points ask for, and not given
-  int point_size = 1;        ///< pixels: larger than 1 where the pixel is finer than the spacing
-  double spacing = 0.0;      ///< of points, the median, model units; 0: there are polygons only
-  double noise = 0.0;        ///< of points along the normal, model units
-  double gap = 0.0;          ///< between contours, model units; 0: the points are spread evenly
-  Box bounds;                ///< of the object, without far outliers
+  double pixel_size = 0.0;  ///< model units
+  /// Whether places with more points may have finer pixels: these are no coarser than the points
+  /// ask for, and not given, and the points are not of scan lines, whose holes no number tells.
+  bool follows_density = false;
+  int point_size = 1;    ///< pixels: larger than 1 where the pixel is finer than the spacing
+  double spacing = 0.0;  ///< of points, the median, model units; 0: there are polygons only
+  double noise = 0.0;    ///< of points along the normal, model units
+  double gap = 0.0;      ///< between contours, model units; 0: the points are spread evenly
+  Box bounds;            ///< of the object, without far outliers
 };
 
 /// Chooses the pixel side: as given; else from the point spacing (pixel_size_from_spacing()), or
