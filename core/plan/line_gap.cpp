@@ -52,6 +52,7 @@ std::vector<LinePlace> told_places(std::span<const LinePlace> places) {
 
 bool may_have_lines(std::span<const LinePlace> places) {
   std::vector<double> ratios;
+  ratios.reserve(places.size());
   for (const LinePlace& place : places)
     ratios.push_back(place.radius_of_16 / place.radius_of_4);
   return !ratios.empty() && quantile(std::move(ratios), 0.75) >= kRadii;
@@ -116,6 +117,7 @@ double line_gap(std::span<const Vec3> points, std::span<const LinePlace> places)
   const std::vector<LinePlace> told = told_places(places);
   if (!may_have_lines(told)) return 0.0;
   std::vector<SlabIndex::Ball> balls;
+  balls.reserve(told.size());
   for (const LinePlace& place : told)
     balls.push_back({place.center, kBall * place.radius_of_16});
   const std::vector<std::vector<Vec3>> around = offsets_in_balls(balls, points);
