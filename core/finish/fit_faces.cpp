@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -37,6 +38,12 @@ constexpr double kSmooth = 0.7;      // 45 degrees, from the normal of a vertex 
 constexpr double kRelaxStep = 0.55;  // towards the middle of the faces, that is held on to
 constexpr double kMoreHold = 1.65;   // in the next round, if angles are too small
 constexpr double kMoreSlack = 2.0;   // the same
+/// Of the reach: points nearer than this are no outliers. Farther ones are, if fewer than one in
+/// eight points on a face and its neighbours, at least six, are half as far on the same side.
+constexpr double kNoOutlier = 0.1;
+constexpr std::size_t kMinOthers = 6;
+constexpr std::size_t kOthersPerFellow = 8;
+constexpr double kHalfAsFar = 0.5;
 constexpr std::size_t kPerBlock = 1024;
 
 /// The normal equations of the points on a face for how far its plane moves at each corner.
@@ -153,6 +160,7 @@ class Fitter {
       const Vec3 foot = closest_point_on_triangle(points_.point(i), a, b, c);
       const std::array<double, 3> share = barycentric(foot, a, b, c);
       const double distance = glm::dot(sums.normal, points_.point(i) - foot);
+      if (std::abs(distance) > kNoOutlier * options_.reach && is_outlier(face, distance)) continue;
       for (std::size_t k = 0; k < 3; ++k) {
         sums.right[k] += share[k] * distance;
         for (std::size_t l = 0; l < 3; ++l)
@@ -160,6 +168,28 @@ class Fitter {
       }
     }
     return sums;
+  }
+
+  /// Whether hardly any other point on the face or a neighbour is as far from it.
+  [[nodiscard]] bool is_outlier(std::uint32_t face, double distance) const {
+    std::size_t others = 0, fellows = 0;
+    const auto count_on = [&](std::uint32_t f) {
+      const Triangle t = table_.triangle(f);
+      const Vec3 normal = unit_or_z(face_area_vector(table_, positions_, f));
+      for (const std::uint32_t i : points_.of_face(f)) {
+        const double of_other = glm::dot(normal, points_.point(i) - at(t[0]));
+        if (of_other / distance >= kHalfAsFar) ++fellows;
+        ++others;
+      }
+    };
+    count_on(face);
+    for (std::uint32_t c = 3 * face; c < 3 * face + 3; ++c) {
+      if (const std::uint32_t across = table_.across(c); across != CornerTable::kNone)
+        count_on(across / 3);
+    }
+    --others;  // the point itself
+    --fellows;
+    return others >= kMinOthers && kOthersPerFellow * fellows < others;
   }
 
   /// Where each vertex would be without points, and how strongly it is held there.

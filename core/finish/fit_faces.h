@@ -24,10 +24,11 @@ struct FitFacesOptions {
 /// as can be to the points: the least squares of the points' distances from the planes of the faces
 /// they lie on, as in quadric error metrics [Garland, Heckbert 1997], of all vertices together. A
 /// vertex comes to lie off a curved surface, on the outer side of its triangles, and slides to
-/// where the surface bends most. Where few points tell, faces stay in their planes. Where it does
-/// not bend, vertices move towards the middle of their faces; and edges turn for better angles
-/// where the points stay as near. In four rounds, in each of which points find their faces anew, or
-/// up to eight if the median of the angles is not met before.
+/// where the surface bends most. A point more than a tenth of the reach off its face does not count
+/// where hardly any other one around is as far off. Where few points tell, faces stay in their
+/// planes. Where it does not bend, vertices move towards the middle of their faces; and edges turn
+/// for better angles where the points stay as near. In four rounds, in each of which points find
+/// their faces anew, or up to eight if the median of the angles is not met before.
 /// Vertices and edges stay where an angle would get both under the smallest one and smaller than it
 /// is, or a face would turn by more than 60 degrees. The boundary stays. May leave
 /// self-intersections where sheets are close together. Cost: linear in points and faces; in

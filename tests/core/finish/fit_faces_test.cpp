@@ -82,6 +82,20 @@ TEST_CASE("faces come to lie on a sphere with a tenth of the squared error of co
   REQUIRE(mean_square(mesh, points) < before / 10.0);
 }
 
+TEST_CASE("single points off the surface, one in a hundred, hardly move the faces") {
+  const std::uint64_t seed = GENERATE(1, 2, 3);
+  CAPTURE(seed);
+  std::mt19937_64 engine(seed);
+  const std::vector<Vec3> points = testing::sphere_points(0.02, 0.0, engine);
+  std::vector<Vec3> strayed = points;
+  for (std::size_t i = 0; i < points.size(); i += 100)
+    strayed.push_back(uniform(engine, 1.03, 1.09) * points[i]);
+  TriangleMesh mesh = testing::sphere(30), of_strayed = mesh;
+  fit_faces(mesh, points, {.reach = 0.1});
+  fit_faces(of_strayed, strayed, {.reach = 0.1});
+  CHECK(mean_square(of_strayed, points) < 15.0 * mean_square(mesh, points));
+}
+
 TEST_CASE("vertices slide onto the edges of a cube that the mesh cuts off") {
   std::mt19937_64 engine(2);
   TriangleMesh mesh = testing::cube(9);
