@@ -20,6 +20,7 @@ std::string name_of(const Command& command) {
     std::string operator()(const FillMeshHoles&) const { return "fill"; }
     std::string operator()(const DropUnsupported&) const { return "drop_unsupported"; }
     std::string operator()(const FinishMesh&) const { return "finish"; }
+    std::string operator()(const TurnToScanners&) const { return "turn_to_scanners"; }
     std::string operator()(const UndoSteps&) const { return "undo"; }
   };
   return std::visit(Name{}, command);

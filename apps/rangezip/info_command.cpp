@@ -75,8 +75,11 @@ void print_topology(Console& console, const TriangleMesh& mesh, bool check,
 }
 
 std::string_view name_of(const Command& command) {
-  constexpr std::array<std::string_view, 8> kNames{
-      "scan", "erase", "erase_places", "smooth", "fill", "drop_unsupported", "finish", "undo"};
+  constexpr std::array<std::string_view, 9> kNames{"scan",         "erase",
+                                                   "erase_places", "smooth",
+                                                   "fill",         "drop_unsupported",
+                                                   "finish",       "turn_to_scanners",
+                                                   "undo"};
   static_assert(std::variant_size_v<Command> == kNames.size());
   return kNames.at(command.index());
 }

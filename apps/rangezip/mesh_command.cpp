@@ -96,6 +96,9 @@ void print_summary(Console& console, const MeshOptions& options, const Scene& sc
                             report.views.size(), report.views.size() - report.planned_views,
                             report.pixel_size));
   console.print(fmt::format("mesh      {}", topology_text(report.mesh)));
+  if (report.turned_components > 0)
+    console.print(
+        fmt::format("turned    {} of them toward the scanners", report.turned_components));
   const std::string handles = handles_text(report);
   if (!handles.empty()) console.print(fmt::format("handles   {}", handles));
   print_coverage(console, report.coverage);
@@ -209,6 +212,17 @@ void add_mesh_command(CLI::App& app, Action& action) {
              "none; fast: close holes and remove self-intersections; full: also improve the "
              "triangles and restore sharp edges [full]",
              "FINISH");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--scanner",
+          [options](const std::vector<std::string>& positions) {
+            for (const std::string& position : positions)
+              options->reconstruct.scanners.push_back(parse_position(position));
+          },
+          "Where a scanner stood, in the units of the input: what shows it its back is turned, as "
+          "a room scanned from within; may be given several times [all faces the outside]")
+      ->type_name("X,Y,Z")
+      ->allow_extra_args(false);
   add_mesh_file_options(command, options->file);
   command.add_option("--report", options->report, "Write what was done and measured")
       ->type_name("R.json");

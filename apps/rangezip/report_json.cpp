@@ -187,6 +187,7 @@ Json json_of(const MeshRunReport& run) {
   json["mesh"] = mesh_of(report);
   json["handles"] = handles_of(report);
   json["dropped"] = dropped_of(report);
+  json["turned_components"] = report.turned_components;
   json["stages"] = stages_of(run.stages);
   json["peak_memory_bytes"] = peak_memory_bytes();
   return json;

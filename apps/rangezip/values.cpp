@@ -77,6 +77,11 @@ Vec3 parse_vector(const std::string& text) {
   return vector;
 }
 
+Vec3 parse_position(const std::string& text) {
+  const auto numbers = numbers_of(text, 3, "three numbers 'x,y,z'");
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
 Extent parse_extent(const std::string& text) {
   const std::string rule =
       "two whole numbers 'width,height' in [1, " + std::to_string(kMaxRasterExtent) + "]";

@@ -15,6 +15,7 @@ namespace rangezip::app {
 /// text.
 [[nodiscard]] double parse_number(const std::string& text);
 [[nodiscard]] Vec3 parse_vector(const std::string& text);                ///< "x,y,z", not all 0
+[[nodiscard]] Vec3 parse_position(const std::string& text);              ///< "x,y,z"
 [[nodiscard]] Extent parse_extent(const std::string& text);              ///< "w,h", 1..8192
 [[nodiscard]] std::vector<Vec2> parse_polygon(const std::string& text);  ///< "x,y x,y x,y ..."
 [[nodiscard]] Plane parse_plane(const std::string& text);                ///< "nx,ny,nz,d"

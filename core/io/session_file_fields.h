@@ -260,6 +260,12 @@ void describe(Fields& f, DropUnsupported& command) {
 }
 
 template <class Fields>
+void describe(Fields& f, TurnToScanners& command) {
+  auto& [scanners] = command;
+  f.points("scanners", scanners, "positions [x, y, z] of the scanners, world coordinates");
+}
+
+template <class Fields>
 void describe(Fields& f, FinishMesh& command) {
   auto& [options, vote] = command;
   auto& [method, pixel_size, max_hole_perimeter, narrow_width, rounds, relaxations, triangles,
@@ -313,6 +319,7 @@ void for_each_command_type(const Visit& visit) {
   visit("fill", "closes boundary loops", FillMeshHoles{});
   visit("drop_unsupported", "drops the faces that no point lies near", DropUnsupported{});
   visit("finish", "closes, cleans and improves the mesh", FinishMesh{});
+  visit("turn_to_scanners", "turns components that show scanners their backs", TurnToScanners{});
   visit("undo", "takes back the last commands", UndoSteps{});
 }
 

@@ -149,6 +149,14 @@ class Reader {
       corners.emplace_back(xy[0], xy[1]);
     }
   }
+  void points(const char* name, std::vector<Vec3>& points, const char*) {
+    const Json* member = find(name);
+    if (member == nullptr) return;
+    if (!member->is_array()) refuse(at(name), "must be an array of [x, y, z]", *member);
+    points.clear();
+    for (std::size_t i = 0; i < member->size(); ++i)
+      points.push_back(read_vector((*member)[i], at(name) + '/' + std::to_string(i)));
+  }
   void spheres(const char* name, std::vector<Sphere>& spheres, const char*) {
     const Json* member = find(name);
     if (member == nullptr) return;

@@ -132,6 +132,9 @@ class SchemaBuilder {
     schema["anyOf"] = {{{"maxItems", 0}}, {{"minItems", 3}}};
     add(name, std::move(schema), text)["default"] = Json::array();
   }
+  void points(const char* name, const std::vector<Vec3>&, const char* text) {
+    add(name, array_schema(array_schema({{"type", "number"}}, 3)), text)["default"] = Json::array();
+  }
   void spheres(const char* name, const std::vector<Sphere>&, const char* text) {
     add(name, array_schema(array_schema({{"type", "number"}}, 4)), text)["default"] = Json::array();
   }

@@ -61,6 +61,12 @@ class Writer {
     }
     json_[name] = std::move(list);
   }
+  void points(const char* name, const std::vector<Vec3>& points, const char*) {
+    Json list = Json::array();
+    for (const Vec3& p : points)
+      list.push_back({finite(name, p.x), finite(name, p.y), finite(name, p.z)});
+    json_[name] = std::move(list);
+  }
   void spheres(const char* name, const std::vector<Sphere>& spheres, const char*) {
     Json list = Json::array();
     for (const auto& [center, radius] : spheres) {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/quantile.h"
 #include "core/base/symmetric_eigen.h"
 #include "core/plan/own_sheet.h"
 #include "core/plan/slab_index.h"
@@ -32,12 +33,6 @@ constexpr std::size_t kLeastLocations = 12;
 /// themselves, and grids, have less than 1.05.
 constexpr double kOpen = 1.25;
 constexpr double kShareOfPlaces = 0.8;
-
-double quantile(std::vector<double> values, double share) {
-  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
-}
 
 /// Places that have 16 points around them, in the order of x.
 std::vector<LinePlace> told_places(std::span<const LinePlace> places) {

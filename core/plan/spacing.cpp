@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "core/base/quantile.h"
 #include "core/base/spread.h"
 #include "core/base/symmetric_eigen.h"
 #include "core/plan/cloud_noise.h"
@@ -66,12 +67,6 @@ constexpr double kUsualGaps = 2.0;
 double squared_distance(const Vec3& a, const Vec3& b) {
   const Vec3 d = a - b;
   return glm::dot(d, d);
-}
-
-double quantile(std::vector<double> values, double share) {
-  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
 }
 
 /// The nearest distinct places around one point, nearest first.

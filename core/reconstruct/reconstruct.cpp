@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,9 +20,9 @@
 #include "core/plan/spacing.h"
 #include "core/plan/view_planner.h"
 #include "core/reconstruct/dense_places.h"
-#include "core/reconstruct/excess_search.h"
 #include "core/reconstruct/lost_points.h"
 #include "core/reconstruct/papered_holes.h"
+#include "core/reconstruct/repeat_until_count_fits.h"
 #include "core/reconstruct/resolution.h"
 #include "core/reconstruct/scan_recipe.h"
 #include "core/reconstruct/stage_clock.h"
@@ -73,9 +72,6 @@ constexpr double kFillShare = 0.40;
 constexpr double kFinishShare = 0.50;
 constexpr double kShareOfRest = 0.1;
 constexpr double kCheckShare = 0.95;
-
-constexpr double kCountTolerance = 0.025;  ///< of the triangles asked for
-constexpr int kSizeRounds = 8;             ///< with other pixels, until there are as many
 
 void check_options(const Scene& scene, const ReconstructOptions& options) {
   if (scene.empty()) throw InvalidArgument("reconstruct: the scene must not be empty");
@@ -410,15 +406,20 @@ class Run {
 
   void check_result() {
     progress_.at("check", kCheckShare);
-    const auto mesh = session_.mesh();
+    const auto outwards = session_.mesh();  // as the votes, and what is judged by them
     ReconstructReport& report = result_.report;
+    if (!options_.scanners.empty()) {
+      apply(TurnToScanners{options_.scanners}, part_of(progress_, kCheckShare, kCheckShare));
+      report.turned_components = report.commands.back().turned_components;
+    }
+    const auto mesh = session_.mesh();
     SeenPoints seen{.points = samples_};
     if (const auto vote = vote_on_faces()) seen.votes = session_.votes(rasterizer_, *vote);
     run_side_by_side(
         [&] { report.self_intersections = self_intersections(*mesh, progress_).size(); },
         [&] {
           report.mesh = report_mesh(*mesh, progress_);
-          report.coverage = report_coverage(seen, *mesh, recipe_.pixel_size);
+          report.coverage = report_coverage(seen, *outwards, recipe_.pixel_size);
           result_.mesh = *mesh;
         });
     book("check");
@@ -449,39 +450,6 @@ class Run {
   std::vector<Vec3> samples_;       ///< points, then area samples of polygons
 };
 
-/// How many triangles a mesh of pixels has depends on how the surface lies to the views that win,
-/// and is known only afterwards: while it is off, it is tried again with other pixels. @return the
-/// nearest of what was tried
-ReconstructResult run_until_count_fits(const Scene& scene, Rasterizer& rasterizer,
-                                       const ReconstructOptions& options,
-                                       const Progress& progress) {
-  ReconstructResult nearest;
-  double least_off = std::numeric_limits<double>::infinity();
-  std::vector<StageTime> stages;
-  ExcessSearch search;
-  double pixel_size = 0.0;  // of the round before
-  double begin = 0.0;
-  for (int round = 1; round <= kSizeRounds && least_off > kCountTolerance; ++round) {
-    const double end = round == kSizeRounds ? 1.0 : 0.5 * (1.0 + begin);
-    const Progress part = part_of(progress, begin, end);
-    begin = end;
-    ReconstructResult result = Run(scene, rasterizer, options, search.excess(), part).result();
-    stages.insert(stages.end(), result.report.stages.begin(), result.report.stages.end());
-    const double ratio =
-        static_cast<double>(result.mesh.triangles.size()) / static_cast<double>(*options.triangles);
-    const bool is_last = ratio == 0.0 || result.report.pixel_size == pixel_size;
-    pixel_size = result.report.pixel_size;
-    if (std::abs(ratio - 1.0) < least_off) {
-      least_off = std::abs(ratio - 1.0);
-      nearest = std::move(result);
-    }
-    if (is_last) break;
-    search.go_on_from(ratio);
-  }
-  nearest.report.stages = std::move(stages);
-  return nearest;
-}
-
 }  // namespace
 
 ReconstructResult reconstruct(const Scene& scene, Rasterizer& rasterizer,
@@ -490,8 +458,11 @@ ReconstructResult reconstruct(const Scene& scene, Rasterizer& rasterizer,
   ReconstructResult result;
   const bool is_sized_by_pixels = options.triangles && options.finish != FinishMethod::full;
   run_with_threads(options.threads, [&] {
-    result = is_sized_by_pixels ? run_until_count_fits(scene, rasterizer, options, progress)
-                                : Run(scene, rasterizer, options, 1.0, progress).result();
+    const auto run = [&](double excess, const Progress& part) {
+      return Run(scene, rasterizer, options, excess, part).result();
+    };
+    result = is_sized_by_pixels ? repeat_until_count_fits(run, *options.triangles, progress)
+                                : run(1.0, progress);
   });
   progress.at("done", 1.0);
   return result;

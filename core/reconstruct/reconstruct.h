@@ -32,7 +32,9 @@ struct ReconstructOptions {
   double close_holes = 0.0;              ///< in pixel sides: the finish closes holes up to this
                                          ///< perimeter even where no points show a surface
   std::optional<FinishMethod> finish = FinishMethod::full;  ///< absent: no finish
-  int threads = 0;  ///< 0: all of the machine; the mesh never depends on it
+  std::vector<Vec3> scanners;  ///< where scanners stood: what shows them its back is turned; none:
+                               ///< all faces the outside, or the first view
+  int threads = 0;             ///< 0: all of the machine; the mesh never depends on it
 };
 
 struct StageTime {
@@ -52,6 +54,7 @@ struct ReconstructReport {
   std::vector<StageTime> stages;  ///< of a repeated run one after the other
   CoverageReport coverage;
   MeshReport mesh;
+  std::size_t turned_components = 0;   ///< toward the scanners
   std::size_t self_intersections = 0;  ///< pairs
 };
 

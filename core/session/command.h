@@ -66,6 +66,12 @@ struct FinishMesh {
   std::optional<VoteOptions> vote;  ///< tells which faces the points contradict; absent: none
 };
 
+/// Turns components that show their backs to where scanners stood
+/// (core/session/turn_to_scanners.h).
+struct TurnToScanners {
+  std::vector<Vec3> scanners;  ///< positions, world coordinates
+};
+
 /// Takes back the last `count` commands (for hand-written sessions; Session::undo() otherwise).
 struct UndoSteps {
   int count = 1;
@@ -73,6 +79,6 @@ struct UndoSteps {
 
 /// One step of a session. Plain data: written to a session file, it can be played back.
 using Command = std::variant<AddScan, EraseRegion, ErasePlaces, SmoothMesh, FillMeshHoles,
-                             DropUnsupported, FinishMesh, UndoSteps>;
+                             DropUnsupported, FinishMesh, TurnToScanners, UndoSteps>;
 
 }  // namespace rangezip

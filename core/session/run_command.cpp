@@ -17,6 +17,7 @@
 #include "core/plan/hidden_samples.h"
 #include "core/plan/spacing.h"
 #include "core/session/erase_region.h"
+#include "core/session/turn_to_scanners.h"
 #include "core/view/view.h"
 
 namespace rangezip {
@@ -102,6 +103,11 @@ class CommandRun {
     FinishResult finished = finish(std::move(result_.mesh), seen, options, progress_);
     result_.mesh = std::move(finished.mesh);
     result_.report.finish = finished.report;
+  }
+
+  void operator()(const TurnToScanners& command) {
+    result_.report.turned_components =
+        turn_to_scanners(result_.mesh, rasterizer_, command.scanners);
   }
 
   void operator()(const UndoSteps&) {

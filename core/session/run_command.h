@@ -21,8 +21,9 @@ struct CommandReport {
   FinishReport finish;
   std::size_t erased_faces = 0;
   std::size_t filled_holes = 0;
-  std::size_t handles = 0;  ///< of the whole mesh after the command (core/mesh/handles.h)
-  double seconds = 0.0;     ///< wall time
+  std::size_t turned_components = 0;  ///< toward scanners
+  std::size_t handles = 0;            ///< of the whole mesh after the command (core/mesh/handles.h)
+  double seconds = 0.0;               ///< wall time
 };
 
 /// The votes of one scene, computed once for each distinct set of options and then kept

@@ -76,6 +76,8 @@ TEST_CASE("a wrong command line is refused with exit code 1 and the reason", "[a
        "'auto' or a whole number in [1, 1000], got '0'"},
       {{"mesh", cloud, "-o", out, "--finish", "best"}, "one of fast, full, none, got 'best'"},
       {{"mesh", cloud, "-o", out, "--method", "old"}, "one of auto, paper, got 'old'"},
+      {{"mesh", cloud, "-o", out, "--scanner", "1,2"},
+       "--scanner: must be three numbers 'x,y,z', got '1,2'"},
       {{"mesh", cloud, "-o", out, "--threads", "-2"}, "--threads"},
       {{"mesh", cloud, "-o", out, "--report", folder / "r.json", "--session", folder / "r.json"},
        "is the same file as --report"},

@@ -272,6 +272,30 @@ TEST_CASE("the options of mesh do what they say", "[apps]") {
   REQUIRE(mesh(folder, "out.ply", {"--finish", "fast"}).code == 0);
 }
 
+TEST_CASE("a sphere that was scanned from within faces its middle, and plays to the same bytes",
+          "[apps]") {
+  const TemporaryFolder folder;
+  store_sphere(folder / "sphere.ply");
+  const RunResult result = mesh(folder, "in.ply",
+                                {"--scanner", "0,0,0.5", "--scanner=-0.5,0,0", "--session",
+                                 folder / "s.json", "--report", folder / "r.json"});
+  CAPTURE(result.err);
+  REQUIRE(result.code == 0);
+  CHECK_THAT(result.out, Contains("turned    1 of them toward the scanners"));
+  CHECK(Json::parse(load(folder / "r.json"))["turned_components"] == 1);
+  const TriangleMesh inwards = read_mesh(folder / "in.ply");
+  for (const Triangle& face : inwards.triangles) {
+    const Vec3 toward_middle = -centroid_of(inwards.positions, face);
+    REQUIRE(glm::dot(unit_normal(inwards.positions, face), toward_middle) > 0.0);
+  }
+  REQUIRE(run({"play", folder / "s.json", "-o", folder / "again.ply"}).code == 0);
+  CHECK(load(folder / "again.ply") == load(folder / "in.ply"));
+
+  const RunResult outside = mesh(folder, "out.ply", {"--scanner", "3,0,0"});
+  REQUIRE(outside.code == 0);
+  CHECK_THAT(outside.out, !Contains("turned"));
+}
+
 TEST_CASE("a run that ends without a face writes nothing and says what may help", "[apps]") {
   const TemporaryFolder folder;
   const auto cloud = folder.store("cloud.xyz", "0 0 0\n1 0 0\n0 1 0\n0 0 1\n");

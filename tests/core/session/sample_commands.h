@@ -92,6 +92,7 @@ inline std::vector<Command> full_commands(shapes::Random& random) {
           FillMeshHoles{.pixel_size = share(), .max_perimeter = share()},
           DropUnsupported{.pixel_size = share()},
           finish,
+          TurnToScanners{{{random.normal(), 1.0 / 3.0, random.normal()}, {0.0, -0.0, 1e9}}},
           UndoSteps{.count = count()}};
 }
 

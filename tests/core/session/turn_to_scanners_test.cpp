@@ -1,0 +1,111 @@
+// Components face the scanners that saw them: rooms inwards, bodies outwards, sheets to the side
+// from which they were measured.
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "core/base/error.h"
+#include "core/mesh/mesh_report.h"
+#include "core/session/turn_to_scanners.h"
+#include "raster_cpu/cpu_rasterizer.h"
+#include "tests/support/shapes.h"
+
+using namespace rangezip;
+
+namespace {
+
+/// Six times the volume inside, negative where faces look inwards.
+double six_volumes(const TriangleMesh& mesh) {
+  double sum = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    sum += glm::dot(mesh.positions[a], glm::cross(mesh.positions[b], mesh.positions[c]));
+  return sum;
+}
+
+/// A room of half side 3 around the origin, and a ball of radius 0.5 in it; both face outwards.
+TriangleMesh room_with_ball(const Vec3& ball) {
+  return shapes::to_mesh(shapes::merged(
+      shapes::cube(3.0), shapes::moved(shapes::sphere(0.5, 24), shapes::translation(ball))));
+}
+
+const double kRoom = six_volumes(shapes::to_mesh(shapes::cube(3.0)));
+const double kBall = six_volumes(shapes::to_mesh(shapes::sphere(0.5, 24)));
+
+}  // namespace
+
+TEST_CASE("a room faces the scanner in it, and so does what stands in the room", "[session]") {
+  CpuRasterizer rasterizer;
+  const Vec3 far = GENERATE(Vec3(0.0), Vec3(4e5, -5e6, 100.0));  // as of a national grid
+  TriangleMesh mesh = room_with_ball({1.5, 0.0, 0.0});
+  for (Vec3& position : mesh.positions)
+    position += far;
+  const std::vector<Vec3> before = mesh.positions;
+  const Vec3 scanner = far + Vec3{-2.0, 0.5, 0.3};
+  CHECK(turn_to_scanners(mesh, rasterizer, {&scanner, 1}) == 1);
+  CHECK_NOTHROW(check_mesh(mesh));
+  CHECK(mesh.positions == before);
+  for (Vec3& position : mesh.positions)
+    position -= far;
+  CHECK(six_volumes(mesh) == Approx(kBall - kRoom).epsilon(1e-6));
+  for (Vec3& position : mesh.positions)
+    position += far;
+  CHECK(turn_to_scanners(mesh, rasterizer, {&scanner, 1}) == 0);  // as it should be now
+}
+
+TEST_CASE("a scanner outside sees fronts, and turns what shows it a back", "[session]") {
+  CpuRasterizer rasterizer;
+  TriangleMesh mesh = shapes::to_mesh(shapes::torus());
+  const TriangleMesh outwards = mesh;
+  const std::vector<Vec3> scanners{{4.0, 1.0, 3.0}, {-40.0, 1.0, 2.0}};
+  CHECK(turn_to_scanners(mesh, rasterizer, scanners) == 0);
+  CHECK(mesh == outwards);
+  for (Triangle& face : mesh.triangles)
+    std::swap(face[1], face[2]);
+  CHECK(turn_to_scanners(mesh, rasterizer, scanners) == 1);
+  CHECK(mesh == outwards);
+}
+
+TEST_CASE("a sheet faces the side from which it was measured", "[session]") {
+  CpuRasterizer rasterizer;
+  const double height = GENERATE(-2.0, 2.0);
+  TriangleMesh sheet = shapes::square_sheet(8);
+  const bool was_up = unit_normal(sheet.positions, sheet.triangles[0]).z > 0.0;
+  const Vec3 scanner{0.3, 0.4, height};
+  CHECK(turn_to_scanners(sheet, rasterizer, {&scanner, 1}) == (was_up == (height > 0.0) ? 0 : 1));
+  for (const Triangle& face : sheet.triangles)
+    CHECK(unit_normal(sheet.positions, face).z * height > 0.0);
+}
+
+TEST_CASE("what no scanner sees stays, and what shows through a hole does not decide",
+          "[session]") {
+  CpuRasterizer rasterizer;
+  TriangleMesh mesh = room_with_ball({0.0, 0.0, 0.0});
+  const TriangleMesh before = mesh;
+  const Vec3 outside{9.0, 1.0, 2.0};
+  CHECK(turn_to_scanners(mesh, rasterizer, {&outside, 1}) == 0);
+  CHECK(mesh == before);
+
+  // Through the mouth of a bowl the scanner sees a little of its inside, and more of its outside.
+  TriangleMesh ball = shapes::to_mesh(shapes::sphere(1.0, 48));
+  std::erase_if(ball.triangles,
+                [&](const Triangle& face) { return centroid_of(ball.positions, face).x > 0.97; });
+  remove_unused_vertices(ball);
+  const TriangleMesh with_hole = ball;
+  const Vec3 far_away{30.0, 2.0, 0.0};
+  CHECK(turn_to_scanners(ball, rasterizer, {&far_away, 1}) == 0);
+  CHECK(ball == with_hole);
+}
+
+TEST_CASE("scanners must be somewhere; without any, or without faces, nothing is turned",
+          "[session]") {
+  CpuRasterizer rasterizer;
+  TriangleMesh mesh = room_with_ball({1.5, 0.0, 0.0});
+  const TriangleMesh before = mesh;
+  CHECK(turn_to_scanners(mesh, rasterizer, {}) == 0);
+  CHECK(mesh == before);
+  const Vec3 nowhere{0.0, std::numeric_limits<double>::quiet_NaN(), 0.0};
+  CHECK_THROWS_AS(turn_to_scanners(mesh, rasterizer, {&nowhere, 1}), InvalidArgument);
+  const Vec3 scanner{0.0};
+  TriangleMesh empty;
+  CHECK(turn_to_scanners(empty, rasterizer, {&scanner, 1}) == 0);
+}
