@@ -212,17 +212,11 @@ void add_mesh_command(CLI::App& app, Action& action) {
              "none; fast: close holes and remove self-intersections; full: also improve the "
              "triangles and restore sharp edges [full]",
              "FINISH");
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--scanner",
-          [options](const std::vector<std::string>& positions) {
-            for (const std::string& position : positions)
-              options->reconstruct.scanners.push_back(parse_position(position));
-          },
-          "Where a scanner stood, in the units of the input: what shows it its back is turned, as "
-          "a room scanned from within; may be given several times [all faces the outside]")
-      ->type_name("X,Y,Z")
-      ->allow_extra_args(false);
+  add_repeated(
+      command, "--scanner", options->reconstruct.scanners, parse_position,
+      "Where a scanner stood, in the units of the input: what shows it its back is turned, "
+      "as a room scanned from within; may be given several times [all faces the outside]",
+      "X,Y,Z");
   add_mesh_file_options(command, options->file);
   command.add_option("--report", options->report, "Write what was done and measured")
       ->type_name("R.json");

@@ -72,17 +72,9 @@ void add_view_options(CLI::App& command, ScanChoices& choices) {
       "Take only what is seen inside of this polygon: corners in pixels, from the lower left of "
       "the image, y up",
       "\"X,Y X,Y X,Y ...\"");
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--clip",
-          [&choices](const std::vector<std::string>& planes) {
-            for (const std::string& plane : planes) {
-              choices.clip_planes.push_back(parse_plane(plane));
-            }
-          },
-          "Cut away what has NX x + NY y + NZ z + D < 0; may be given several times")
-      ->type_name("NX,NY,NZ,D")
-      ->allow_extra_args(false)
+  add_repeated(command, "--clip", choices.clip_planes, parse_plane,
+               "Cut away what has NX x + NY y + NZ z + D < 0; may be given several times",
+               "NX,NY,NZ,D")
       ->group("View");
 }
 

@@ -38,6 +38,26 @@ CLI::Option* add_parsed(CLI::App& command, const std::string& name, Target& targ
       ->type_name(form);
 }
 
+/// The same for an option that may be given several times: each adds to `list`.
+template <class Item, class Parse>
+CLI::Option* add_repeated(CLI::App& command, const std::string& name, std::vector<Item>& list,
+                          const Parse& parse, const std::string& text, const std::string& form) {
+  return command
+      .add_option_function<std::vector<std::string>>(
+          name,
+          [&list, parse, name](const std::vector<std::string>& values) {
+            try {
+              for (const std::string& value : values)
+                list.push_back(parse(value));
+            } catch (const CLI::ValidationError& error) {
+              throw CLI::ValidationError(name, error.what());
+            }
+          },
+          text)
+      ->type_name(form)
+      ->allow_extra_args(false);
+}
+
 /// A number greater than 0.
 [[nodiscard]] double parse_positive(const std::string& text);
 /// A whole number greater than 0.

@@ -89,7 +89,7 @@ TEST_CASE("a wrong command line is refused with exit code 1 and the reason", "[a
       {{"scan", cloud, "-o", out, "--size", "0,5"}, "two whole numbers"},
       {{"scan", cloud, "-o", out, "--size", "9000,5"}, "two whole numbers"},
       {{"scan", cloud, "-o", out, "--region", "1,1 2,2"}, "at least three corners"},
-      {{"scan", cloud, "-o", out, "--clip", "1,0,0"}, "four numbers"},
+      {{"scan", cloud, "-o", out, "--clip", "1,0,0"}, "--clip: must be four numbers"},
       {{"scan", cloud, "-o", out, "--perspective", "180"}, "less than 180 degrees"},
       {{"scan", cloud, "-o", out, "--no-median", "--median-radius", "2"}, "needs --median"},
       {{"scan", cloud, "-o", out, "--vote", "--no-plane-fit"}, "--vote: needs --plane-fit"},

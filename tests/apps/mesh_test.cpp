@@ -277,7 +277,7 @@ TEST_CASE("a sphere that was scanned from within faces its middle, and plays to 
   const TemporaryFolder folder;
   store_sphere(folder / "sphere.ply");
   const RunResult result = mesh(folder, "in.ply",
-                                {"--scanner", "0,0,0.5", "--scanner=-0.5,0,0", "--session",
+                                {"--scanner", "3,0,0.5", "--scanner", "2.5,0,0", "--session",
                                  folder / "s.json", "--report", folder / "r.json"});
   CAPTURE(result.err);
   REQUIRE(result.code == 0);
@@ -285,13 +285,13 @@ TEST_CASE("a sphere that was scanned from within faces its middle, and plays to 
   CHECK(Json::parse(load(folder / "r.json"))["turned_components"] == 1);
   const TriangleMesh inwards = read_mesh(folder / "in.ply");
   for (const Triangle& face : inwards.triangles) {
-    const Vec3 toward_middle = -centroid_of(inwards.positions, face);
+    const Vec3 toward_middle = Vec3{3.0, 0.0, 0.0} - centroid_of(inwards.positions, face);
     REQUIRE(glm::dot(unit_normal(inwards.positions, face), toward_middle) > 0.0);
   }
   REQUIRE(run({"play", folder / "s.json", "-o", folder / "again.ply"}).code == 0);
   CHECK(load(folder / "again.ply") == load(folder / "in.ply"));
 
-  const RunResult outside = mesh(folder, "out.ply", {"--scanner", "3,0,0"});
+  const RunResult outside = mesh(folder, "out.ply", {"--scanner=-3,0,0"});
   REQUIRE(outside.code == 0);
   CHECK_THAT(outside.out, !Contains("turned"));
 }
