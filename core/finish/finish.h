@@ -21,7 +21,7 @@ struct FinishOptions {
                                     ///< that the surface was not sampled there
   double narrow_width = 3.0;        ///< in h: cracks up to this are closed whatever their length
   int rounds = 8;                   ///< of {cut self-intersections, bridge, fill}, at most
-  int relaxations = 8;              ///< of {split, collapse, flip, relax, project}
+  int relaxations = 9;              ///< of {split, collapse, flip, relax, project}
   std::size_t triangles = 0;    ///< target of `full`, met within a few percent, up to 16 times as
                                 ///< many as there are; 0: as many as come
   double flat_tolerance = 0.0;  ///< in h: `full` lets triangles grow where they stay within this of

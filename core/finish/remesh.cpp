@@ -39,7 +39,7 @@ constexpr std::array kProjections{1.5, 1.0};  // before the first round, with wi
 constexpr int kValencePasses = 2;             // an edge that has turned makes others worth it
 constexpr int kClosingRounds = 2;
 constexpr int kAligningRounds = 2;
-constexpr int kSizingRounds = 4;  // later ones keep the relative lengths
+constexpr int kSizingRounds = 5;  // later ones keep the relative lengths
 constexpr int kAnewRounds = 2;    // in later ones, and not at the end, vertices hardly move:
 constexpr double kReuse = 0.25;   // within so much of a window the fit of before is as good
 constexpr std::size_t kPerBlock = 512;
