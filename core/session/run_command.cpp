@@ -107,7 +107,7 @@ class CommandRun {
 
   void operator()(const TurnToScanners& command) {
     result_.report.turned_components =
-        turn_to_scanners(result_.mesh, rasterizer_, command.scanners);
+        turn_to_scanners(result_.mesh, rasterizer_, command.scanners, progress_);
   }
 
   void operator()(const UndoSteps&) {

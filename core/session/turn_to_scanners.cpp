@@ -73,13 +73,14 @@ void add_seen(const TriangleMesh& mesh, const Vec3& eye, const std::vector<std::
 /// What scanners see of each component.
 std::vector<Sides> sides_of(const TriangleMesh& mesh, Rasterizer& rasterizer,
                             std::span<const Vec3> scanners,
-                            const std::vector<std::uint32_t>& component) {
+                            const std::vector<std::uint32_t>& component, const Progress& progress) {
   std::vector<Sides> sides(component_sizes(component).size());
   for (std::size_t f = 0; f < component.size(); ++f)
     sides[component[f]].whole += 2.0 * area_of_face(mesh.positions, mesh.triangles[f]);
   const DrawableMesh drawable(mesh);
   const Box bounds = bounds_of(mesh);
   for (const Vec3& eye : scanners) {
+    progress.check_stop();
     std::vector<std::uint8_t> is_seen(mesh.triangles.size(), 0);
     mark_seen(rasterizer, drawable, bounds, eye, is_seen);
     add_seen(mesh, eye, is_seen, component, sides);
@@ -90,7 +91,7 @@ std::vector<Sides> sides_of(const TriangleMesh& mesh, Rasterizer& rasterizer,
 }  // namespace
 
 std::size_t turn_to_scanners(TriangleMesh& mesh, Rasterizer& rasterizer,
-                             std::span<const Vec3> scanners) {
+                             std::span<const Vec3> scanners, const Progress& progress) {
   for (const Vec3& eye : scanners) {
     if (!std::isfinite(eye.x + eye.y + eye.z))
       throw InvalidArgument("turn_to_scanners: positions must be finite");
@@ -98,7 +99,7 @@ std::size_t turn_to_scanners(TriangleMesh& mesh, Rasterizer& rasterizer,
   if (mesh.empty()) return 0;
   const std::vector<std::uint32_t> component =
       components_of(CornerTable(mesh.triangles, mesh.positions.size()));
-  const std::vector<Sides> sides = sides_of(mesh, rasterizer, scanners, component);
+  const std::vector<Sides> sides = sides_of(mesh, rasterizer, scanners, component, progress);
   for (std::size_t f = 0; f < component.size(); ++f) {
     Triangle& face = mesh.triangles[f];
     if (sides[component[f]].is_wrong()) std::swap(face[1], face[2]);

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/base/geometry.h"
+#include "core/base/progress.h"
 #include "core/mesh/triangle_mesh.h"
 #include "core/raster/rasterizer.h"
 
@@ -17,9 +18,9 @@ namespace rangezip {
 /// @param scanners positions, world coordinates, of any number
 /// @pre oriented and manifold; stays so. Positions stay, and the order of faces.
 /// @return components turned
-/// @throws InvalidArgument if a position is not finite
+/// @throws InvalidArgument if a position is not finite; Cancelled, with the mesh as it was
 /// Cost: six images of 1024 x 1024 pixels for each scanner, and O(faces).
 std::size_t turn_to_scanners(TriangleMesh& mesh, Rasterizer& rasterizer,
-                             std::span<const Vec3> scanners);
+                             std::span<const Vec3> scanners, const Progress& progress = {});
 
 }  // namespace rangezip

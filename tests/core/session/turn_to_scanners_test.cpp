@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <limits>
+#include <stop_token>
 
 #include "core/base/error.h"
 #include "core/mesh/mesh_report.h"
@@ -96,7 +97,7 @@ TEST_CASE("what no scanner sees stays, and what shows through a hole does not de
   CHECK(ball == with_hole);
 }
 
-TEST_CASE("scanners must be somewhere; without any, or without faces, nothing is turned",
+TEST_CASE("scanners must be somewhere; without any, without faces, or cancelled, nothing is turned",
           "[session]") {
   CpuRasterizer rasterizer;
   TriangleMesh mesh = room_with_ball({1.5, 0.0, 0.0});
@@ -106,6 +107,12 @@ TEST_CASE("scanners must be somewhere; without any, or without faces, nothing is
   const Vec3 nowhere{0.0, std::numeric_limits<double>::quiet_NaN(), 0.0};
   CHECK_THROWS_AS(turn_to_scanners(mesh, rasterizer, {&nowhere, 1}), InvalidArgument);
   const Vec3 scanner{0.0};
+  const Vec3 in_room{-2.0, 0.5, 0.3};
+  std::stop_source source;
+  source.request_stop();
+  const Progress cancelled{.stop = source.get_token()};
+  CHECK_THROWS_AS(turn_to_scanners(mesh, rasterizer, {&in_room, 1}, cancelled), Cancelled);
+  CHECK(mesh == before);
   TriangleMesh empty;
   CHECK(turn_to_scanners(empty, rasterizer, {&scanner, 1}) == 0);
 }
