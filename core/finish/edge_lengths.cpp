@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kLargestRatio = 1.6;   // to the mean, both ways
 constexpr double kLeastBending = 0.02;  // radians over an edge
-constexpr int kSmoothings = 5;
+constexpr int kSmoothings = 4;
 constexpr double kSmoothing = 0.5;  // of the way to the mean of the neighbours
 constexpr int kScalings = 4;
 constexpr std::size_t kPerBlock = 4096;
